@@ -1,0 +1,3 @@
+//! wgpu: device, targets, passes.
+
+pub mod device;
