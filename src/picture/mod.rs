@@ -1,1 +1,109 @@
-//! (to be written)
+//! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB.
+
+mod file;
+mod tone;
+
+pub use file::{Format, WriteError, check_writable, write_atomically};
+pub use tone::{ToneCurve, srgb_from_linear};
+
+use std::io::Cursor;
+
+/// A picture in linear Rec. 709 radiance: rows from the top, pixels from the left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearImage {
+    pub width: u32,
+    pub height: u32,
+    /// `width * height` triples.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+/// A picture as shown: sRGB, 8 bits, rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DisplayImage {
+    pub width: u32,
+    pub height: u32,
+    /// `width * height` triples.
+    pub pixels: Vec<[u8; 3]>,
+}
+
+impl LinearImage {
+    /// The bytes of an OpenEXR file of 32-bit floats, channels R, G, B.
+    pub fn to_exr(&self) -> Result<Vec<u8>, WriteError> {
+        encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb32F, Format::Exr)
+    }
+
+    /// The picture as shown: radiance times `2^exposure`, through the tone curve, in sRGB.
+    pub fn display(&self, exposure: f32, tone: ToneCurve) -> DisplayImage {
+        let gain = exposure.exp2();
+        let show = |pixel: &[f32; 3]| {
+            let shown = tone.apply(pixel.map(|channel| channel * gain));
+            shown.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u8)
+        };
+        DisplayImage { width: self.width, height: self.height, pixels: self.pixels.iter().map(show).collect() }
+    }
+}
+
+impl DisplayImage {
+    /// The bytes of a PNG file.
+    pub fn to_png(&self) -> Result<Vec<u8>, WriteError> {
+        encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb8, Format::Png)
+    }
+
+    /// Reads a PNG file.
+    pub fn from_png(bytes: &[u8]) -> Result<Self, image::ImageError> {
+        let image = image::load_from_memory_with_format(bytes, image::ImageFormat::Png)?.into_rgb8();
+        let (width, height) = image.dimensions();
+        Ok(Self { width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() })
+    }
+}
+
+fn encode(
+    width: u32,
+    height: u32,
+    bytes: &[u8],
+    color: image::ColorType,
+    format: Format,
+) -> Result<Vec<u8>, WriteError> {
+    let mut out = Cursor::new(Vec::new());
+    let image_format = match format {
+        Format::Png => image::ImageFormat::Png,
+        Format::Exr => image::ImageFormat::OpenExr,
+    };
+    image::write_buffer_with_format(&mut out, bytes, width, height, color, image_format)
+        .map_err(|source| WriteError::Encode { format, source })?;
+    Ok(out.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gradient() -> LinearImage {
+        let pixels = (0..12).map(|i| [i as f32 * 0.1, 1e-6, 1e5 / (1 + i) as f32]).collect();
+        LinearImage { width: 4, height: 3, pixels }
+    }
+
+    #[test]
+    fn exr_keeps_every_bit() {
+        let picture = gradient();
+        let bytes = picture.to_exr().unwrap();
+        let back = image::load_from_memory_with_format(&bytes, image::ImageFormat::OpenExr).unwrap().into_rgb32f();
+        assert_eq!(back.dimensions(), (4, 3));
+        assert!(back.pixels().zip(&picture.pixels).all(|(read, written)| read.0 == *written));
+    }
+
+    #[test]
+    fn png_round_trip() {
+        let shown = gradient().display(0.5, ToneCurve::Neutral);
+        assert_eq!(DisplayImage::from_png(&shown.to_png().unwrap()).unwrap(), shown);
+        assert!(DisplayImage::from_png(b"not a png").is_err());
+    }
+
+    #[test]
+    fn exposure_doubles_with_each_stop() {
+        let picture = LinearImage { width: 1, height: 1, pixels: vec![[0.1, 0.05, 0.2]] };
+        let twice = LinearImage { width: 1, height: 1, pixels: vec![[0.2, 0.1, 0.4]] };
+        assert_eq!(picture.display(1.0, ToneCurve::None), twice.display(0.0, ToneCurve::None));
+        assert_ne!(picture.display(0.0, ToneCurve::None), twice.display(0.0, ToneCurve::None));
+    }
+}

@@ -1,0 +1,111 @@
+use std::fmt;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The kinds of picture files that are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Png,
+    Exr,
+}
+
+impl Format {
+    /// By the file name's extension, case does not count.
+    pub fn of(path: &Path) -> Result<Self, WriteError> {
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        match extension.to_ascii_lowercase().as_str() {
+            "png" => Ok(Self::Png),
+            "exr" => Ok(Self::Exr),
+            _ => Err(WriteError::Extension { path: path.to_owned() }),
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Png => "PNG",
+            Self::Exr => "OpenEXR",
+        })
+    }
+}
+
+/// A picture or table could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    #[error("{}: the extension says what to write: use .png or .exr", path.display())]
+    Extension { path: PathBuf },
+    #[error("{}: cannot be written ({source}): choose another place", path.display())]
+    Path { path: PathBuf, source: std::io::Error },
+    #[error("{}: is a folder: give a file's name", path.display())]
+    Folder { path: PathBuf },
+    #[error("the picture cannot be encoded as {format} ({source})")]
+    Encode { format: Format, source: image::ImageError },
+}
+
+/// Says whether `path` can be written, before the work is done: its folder exists and takes a new file, and it is no
+/// folder itself.
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    if path.is_dir() {
+        return Err(WriteError::Folder { path: path.to_owned() });
+    }
+    temporary_beside(path).map(drop)
+}
+
+/// Writes a file that appears whole or not at all: beside its place first, then renamed.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    if path.is_dir() {
+        return Err(WriteError::Folder { path: path.to_owned() });
+    }
+    let error = |source| WriteError::Path { path: path.to_owned(), source };
+    let mut file = temporary_beside(path)?;
+    file.write_all(bytes).map_err(error)?;
+    file.persist(path).map_err(|persist| error(persist.error))?;
+    Ok(())
+}
+
+fn temporary_beside(path: &Path) -> Result<tempfile::NamedTempFile, WriteError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".velour-");
+    // Like any new file: what the user's umask leaves of it, not tempfile's owner-only default.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder).map_err(|source| WriteError::Path { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_appear_whole_in_folders_that_exist() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        check_writable(&path).unwrap();
+        assert!(!path.exists());
+        write_atomically(&path, b"first").unwrap();
+        write_atomically(&path, b"second").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn folders_and_missing_folders_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for path in [folder.path().to_owned(), folder.path().join("missing/picture.png")] {
+            let said = check_writable(&path).unwrap_err().to_string();
+            assert!(said.contains(&path.display().to_string()) && !said.contains('\n'), "{said}");
+            assert!(write_atomically(&path, b"x").is_err());
+        }
+    }
+
+    #[test]
+    fn the_extension_names_the_format() {
+        assert_eq!(Format::of(Path::new("a/b.PNG")).unwrap(), Format::Png);
+        assert_eq!(Format::of(Path::new("b.exr")).unwrap(), Format::Exr);
+        for name in ["b.jpg", "b", "png", ".png"] {
+            assert!(Format::of(Path::new(name)).is_err(), "{name}");
+        }
+    }
+}
