@@ -1,1 +1,3 @@
+//! The shader files that people copy.
 
+mod files;
