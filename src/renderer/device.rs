@@ -1,6 +1,8 @@
 //! Finding an adapter and opening a device on it.
 
-use wgpu::{Adapter, Device, Instance, InstanceDescriptor, Queue, Surface};
+use std::task::{Context, Poll, Waker};
+
+use wgpu::{Adapter, Backends, Device, Instance, InstanceDescriptor, Queue, Surface};
 
 /// An opened graphics device.
 pub struct Gpu {
@@ -9,43 +11,68 @@ pub struct Gpu {
     pub queue: Queue,
 }
 
+impl Gpu {
+    /// Runs a future of this crate's to its end, waiting for the device whenever it is pending. Blocks; not for browsers,
+    /// where the event loop does this.
+    pub fn block_on<T>(&self, future: impl Future<Output = T>) -> T {
+        let mut future = std::pin::pin!(future);
+        let mut context = Context::from_waker(Waker::noop());
+        loop {
+            if let Poll::Ready(output) = future.as_mut().poll(&mut context) {
+                return output;
+            }
+            // A failure to wait shows in what is waited for: a lost device fails to map its buffers.
+            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        }
+    }
+}
+
 /// No device could be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceError {
     #[error("no graphics adapter was found: install a Vulkan driver (scripts/setup does), or see `velour info`")]
     NoAdapter,
-    #[error("no adapter's name contains '{wanted}': this machine has {found}")]
-    NoMatch { wanted: String, found: String },
+    #[error("no adapter's name contains '{wanted}': this machine has {}", found.join(", "))]
+    NoMatch { wanted: String, found: Vec<String> },
     #[error("adapter '{adapter}' gave no device: {source}")]
     Refused { adapter: String, source: wgpu::RequestDeviceError },
 }
 
-/// The entry to the drivers. Windows pass their event loop's display handle in `descriptor`.
-pub fn instance() -> Instance {
-    Instance::new(InstanceDescriptor::new_without_display_handle_from_env())
+/// Which drivers to ask, in this order: OpenGL only where nothing better fits, because asking for it takes time.
+pub const BACKENDS: [Backends; 2] = [Backends::PRIMARY, Backends::SECONDARY];
+
+/// The entry to the drivers of some backends.
+pub fn instance(backends: Backends) -> Instance {
+    Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_without_display_handle() })
 }
 
-/// Opens the adapter whose name contains `name_part` (case does not count), or the best one where none is asked for.
-/// With a `surface`, only adapters that can present to it count.
+/// Opens a device to draw pictures without a window: the adapter whose name contains `name_part` (case does not count),
+/// or the best one where none is asked for.
+pub async fn open_offscreen(name_part: Option<&str>) -> Result<Gpu, DeviceError> {
+    let mut found = Vec::new();
+    for backends in BACKENDS {
+        match open(&instance(backends), name_part, None).await {
+            Err(DeviceError::NoMatch { found: names, .. }) => found.extend(names),
+            Err(DeviceError::NoAdapter) => {}
+            done => return done,
+        }
+    }
+    Err(no_match(name_part, found))
+}
+
+/// Opens an adapter of this instance as `open_offscreen` does; with a `surface`, one that can present to it.
 pub async fn open(
     instance: &Instance,
     name_part: Option<&str>,
     surface: Option<&Surface<'_>>,
 ) -> Result<Gpu, DeviceError> {
-    let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    let mut adapters = instance.enumerate_adapters(Backends::all()).await;
     adapters.retain(|adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface)));
-    // Hardware before software, Vulkan, Metal and DirectX before OpenGL; the order of enumeration decides ties.
-    adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
-    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-    let adapter = match name_part {
-        None => adapters.into_iter().next().ok_or(DeviceError::NoAdapter)?,
-        Some(wanted) => {
-            let found = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            let matches = |adapter: &Adapter| adapter.get_info().name.to_lowercase().contains(&wanted.to_lowercase());
-            let error = || DeviceError::NoMatch { wanted: wanted.to_owned(), found };
-            adapters.into_iter().find(matches).ok_or_else(error)?
-        }
-    };
+    adapters.sort_by_key(|adapter| speed_rank(&adapter.get_info()));
+    let names = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let wanted = name_part.unwrap_or_default().to_lowercase();
+    let fits = |adapter: &Adapter| adapter.get_info().name.to_lowercase().contains(&wanted);
+    let adapter = adapters.into_iter().find(fits).ok_or_else(|| no_match(name_part, names))?;
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("velour"),
         required_features: adapter.features() & wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES,
@@ -57,14 +84,20 @@ pub async fn open(
     Ok(Gpu { adapter, device, queue })
 }
 
-fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
-    use wgpu::{Backend, DeviceType};
-    let kind = match info.device_type {
-        DeviceType::DiscreteGpu => 0,
-        DeviceType::IntegratedGpu => 1,
-        DeviceType::VirtualGpu => 2,
-        DeviceType::Other => 3,
-        DeviceType::Cpu => 4,
-    };
-    (kind, u8::from(info.backend == Backend::Gl))
+fn no_match(name_part: Option<&str>, found: Vec<String>) -> DeviceError {
+    match name_part {
+        Some(wanted) if !found.is_empty() => DeviceError::NoMatch { wanted: wanted.to_owned(), found },
+        _ => DeviceError::NoAdapter,
+    }
+}
+
+/// Hardware before software; the order of enumeration decides ties.
+fn speed_rank(info: &wgpu::AdapterInfo) -> u8 {
+    match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    }
 }

@@ -1,0 +1,86 @@
+// The second pass: a frame's radiance, multisampled or not, to what is shown (exposure, tone curve, sRGB) or measured
+// (the plain mean of a pixel's samples).
+
+struct DisplayUniforms {
+    // 2^exposure
+    gain: f32,
+    // 0: clamped; 1: Khronos PBR Neutral
+    tone_curve: u32,
+    // The pixel of the output that shows the radiance's first.
+    origin: vec2u,
+}
+
+@group(0) @binding(0) var<uniform> display_uniforms: DisplayUniforms;
+@group(0) @binding(1) var display_radiance: texture_2d<f32>;
+@group(0) @binding(2) var display_radiance_multisampled: texture_multisampled_2d<f32>;
+
+// One triangle that covers the target.
+@vertex
+fn display_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
+    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
+}
+
+// Khronos PBR Neutral Tone Mapper, specification of 2024.
+fn display_neutral(radiance: vec3f) -> vec3f {
+    let fresnel = 0.04;
+    let start = 0.8 - fresnel;
+    let bounded = clamp(radiance, vec3f(0.0), vec3f(1e6));
+    let least = min(bounded.r, min(bounded.g, bounded.b));
+    let offset = select(fresnel, least - least * least / (4.0 * fresnel), least < 2.0 * fresnel);
+    let color = bounded - offset;
+    let peak = max(color.r, max(color.g, color.b));
+    if peak < start {
+        return color;
+    }
+    let room = 1.0 - start;
+    let new_peak = 1.0 - room * room / (peak + room - start);
+    let white = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
+    return mix(color * (new_peak / peak), vec3f(new_peak), white);
+}
+
+// What a radiance looks like: display-linear, in [0, 1].
+fn display_tone(radiance: vec3f) -> vec3f {
+    let exposed = radiance * display_uniforms.gain;
+    if display_uniforms.tone_curve == 1u {
+        return display_neutral(exposed);
+    }
+    return clamp(exposed, vec3f(0.0), vec3f(1.0));
+}
+
+fn display_srgb(linear: vec3f) -> vec4f {
+    let curve = 1.055 * pow(max(linear, vec3f(1e-8)), vec3f(1.0 / 2.4)) - 0.055;
+    return vec4f(select(curve, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
+}
+
+@fragment
+fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy) - display_uniforms.origin;
+    return display_srgb(display_tone(textureLoad(display_radiance, pixel, 0).rgb));
+}
+
+// Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.
+@fragment
+fn display_shown_multisampled(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy) - display_uniforms.origin;
+    var sum = vec3f(0.0);
+    for (var sample = 0u; sample < 4u; sample++) {
+        sum += display_tone(textureLoad(display_radiance_multisampled, pixel, sample).rgb);
+    }
+    return display_srgb(0.25 * sum);
+}
+
+@fragment
+fn display_measured_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return textureLoad(display_radiance, vec2u(position.xy) - display_uniforms.origin, 0);
+}
+
+@fragment
+fn display_measured_multisampled(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy) - display_uniforms.origin;
+    var sum = vec4f(0.0);
+    for (var sample = 0u; sample < 4u; sample++) {
+        sum += textureLoad(display_radiance_multisampled, pixel, sample);
+    }
+    return 0.25 * sum;
+}

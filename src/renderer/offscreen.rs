@@ -1,0 +1,175 @@
+//! Pictures without a window: drawn in tiles, so that memory stays bounded at any size, and read back.
+
+use std::sync::{Arc, Mutex};
+use std::task::{Poll, Waker};
+
+use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
+use crate::picture::{DisplayImage, LinearImage, ToneCurve};
+use crate::scene::{Camera, Scene, Settings};
+use crate::table::LtcTable;
+
+/// Pictures up to this side are drawn in one piece.
+const TILE_SIDE: u32 = 2048;
+
+/// Draws one scene into pictures.
+pub struct Offscreen {
+    renderer: Renderer,
+    format: Format,
+}
+
+impl Offscreen {
+    /// For pictures that are shown (`display`), with 1 or 4 samples a pixel.
+    pub fn for_display(
+        gpu: &Gpu,
+        samples: u32,
+        table: &LtcTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::display(samples);
+        let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
+        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+    }
+
+    /// For linear pictures (`linear`), with 1 or 4 samples a pixel.
+    pub fn for_linear(
+        gpu: &Gpu,
+        samples: u32,
+        table: &LtcTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::linear(&gpu.adapter, samples);
+        let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
+        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+    }
+
+    /// The picture as shown; made by `for_display`.
+    pub async fn display(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+        tone: ToneCurve,
+    ) -> Result<DisplayImage, RenderError> {
+        assert!(!self.format.measured, "a renderer for linear pictures was asked for a shown one");
+        let showing = Showing::Shown { exposure: settings.exposure, tone };
+        let pixels = self.pixels(gpu, camera, size, settings, showing, |texel: [u8; 4]| [texel[0], texel[1], texel[2]]);
+        Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
+    }
+
+    /// Linear radiance; made by `for_linear`. With one sample a pixel, each pixel is the value at its centre.
+    pub async fn linear(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+    ) -> Result<LinearImage, RenderError> {
+        assert!(self.format.measured, "a renderer for shown pictures was asked for a linear one");
+        let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
+        let pixels = self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?;
+        Ok(LinearImage { width: size[0], height: size[1], pixels })
+    }
+
+    async fn pixels<Texel: bytemuck::AnyBitPattern, Pixel: Clone + Default>(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+        showing: Showing,
+        convert: impl Fn(Texel) -> Pixel,
+    ) -> Result<Vec<Pixel>, RenderError> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        if size.iter().any(|side| !(1..=limit).contains(side)) {
+            return Err(RenderError::Size { size, limit });
+        }
+        let mut pixels = vec![Pixel::default(); size[0] as usize * size[1] as usize];
+        for tile in Rect::tiles(size, TILE_SIDE) {
+            let view = View::new(camera, size, tile);
+            let rows = self.tile(gpu, &view, tile, settings, showing).await?;
+            let texel_size = size_of::<Texel>();
+            let stride = rows.len() / tile.height as usize;
+            for (y, row) in rows.chunks_exact(stride).enumerate() {
+                let first = (tile.y as usize + y) * size[0] as usize + tile.x as usize;
+                let texels = row[..tile.width as usize * texel_size].chunks_exact(texel_size);
+                for (pixel, texel) in pixels[first..].iter_mut().zip(texels) {
+                    *pixel = convert(bytemuck::pod_read_unaligned(texel));
+                }
+            }
+        }
+        Ok(pixels)
+    }
+
+    /// Draws one tile and reads its texels back, in rows of equal length, padding at their ends.
+    async fn tile(
+        &mut self,
+        gpu: &Gpu,
+        view: &View,
+        tile: Rect,
+        settings: &Settings,
+        showing: Showing,
+    ) -> Result<Vec<u8>, RenderError> {
+        let extent = wgpu::Extent3d { width: tile.width, height: tile.height, depth_or_array_layers: 1 };
+        let output = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: extent,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.format.output,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let texel_size = self.format.output.block_copy_size(None).unwrap_or(16);
+        let stride = (tile.width * texel_size).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: u64::from(stride) * u64::from(tile.height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
+        let place = Rect { x: 0, y: 0, ..tile };
+        let output_view = output.create_view(&wgpu::TextureViewDescriptor::default());
+        self.renderer.encode(gpu, &mut encoder, (&output_view, place), (view, settings, showing));
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
+        encoder.copy_texture_to_buffer(
+            output.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+            extent,
+        );
+        gpu.queue.submit([encoder.finish()]);
+        map(&buffer).await?;
+        let range = buffer.get_mapped_range(..).map_err(|error| RenderError::Readback(error.to_string()))?;
+        Ok(range.to_vec())
+    }
+}
+
+/// Resolves when the buffer can be read. Somebody has to poll the device meanwhile: a browser does, elsewhere
+/// `Gpu::block_on`.
+async fn map(buffer: &wgpu::Buffer) -> Result<(), RenderError> {
+    type Mapped = (Option<Result<(), wgpu::BufferAsyncError>>, Option<Waker>);
+    let shared = Arc::new(Mutex::new(Mapped::default()));
+    let writer = Arc::clone(&shared);
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        let mut mapped = writer.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        mapped.0 = Some(result);
+        if let Some(waker) = mapped.1.take() {
+            waker.wake();
+        }
+    });
+    let result = std::future::poll_fn(|context| {
+        let mut mapped = shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        match mapped.0.take() {
+            Some(result) => Poll::Ready(result),
+            None => {
+                mapped.1 = Some(context.waker().clone());
+                Poll::Pending
+            }
+        }
+    });
+    result.await.map_err(|error| RenderError::Readback(error.to_string()))
+}

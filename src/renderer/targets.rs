@@ -1,0 +1,61 @@
+//! The textures that a frame is drawn into before it is shown.
+
+use wgpu::{Device, TextureFormat, TextureUsages, TextureView};
+
+/// Depth is 32-bit float, reversed: 1 at the near plane.
+pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
+
+/// How a frame's radiance is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RadianceFormat {
+    /// `Rgba16Float` (11 bits, up to 65504: for the screen) or `Rgba32Float` (for measuring).
+    pub texture: TextureFormat,
+    /// Samples a pixel: 1 or 4.
+    pub samples: u32,
+}
+
+impl RadianceFormat {
+    /// For pictures that are looked at.
+    pub fn display(samples: u32) -> Self {
+        Self { texture: TextureFormat::Rgba16Float, samples }
+    }
+
+    /// For linear pictures: 32-bit floats, or 16-bit ones where the adapter cannot multisample those.
+    pub fn linear(adapter: &wgpu::Adapter, samples: u32) -> Self {
+        let full = Self { texture: TextureFormat::Rgba32Float, samples };
+        let flags = adapter.get_texture_format_features(full.texture).flags;
+        if flags.sample_count_supported(samples) { full } else { Self::display(samples) }
+    }
+}
+
+/// Radiance and depth of one frame.
+pub struct Targets {
+    pub size: [u32; 2],
+    pub radiance: TextureView,
+    pub depth: TextureView,
+}
+
+impl Targets {
+    /// `size` is positive and within the device's limit for textures.
+    pub fn new(device: &Device, size: [u32; 2], format: RadianceFormat) -> Self {
+        let create = |label, texture_format, usage| {
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: format.samples,
+                dimension: wgpu::TextureDimension::D2,
+                format: texture_format,
+                usage,
+                view_formats: &[],
+            });
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
+        };
+        let attachment = TextureUsages::RENDER_ATTACHMENT;
+        Self {
+            size,
+            radiance: create("radiance", format.texture, attachment | TextureUsages::TEXTURE_BINDING),
+            depth: create("depth", DEPTH_FORMAT, attachment),
+        }
+    }
+}
