@@ -22,3 +22,8 @@ pub struct Sheen {
     /// The user's roughness in [0, 1].
     pub roughness: f32,
 }
+
+/// The paper's alpha for the user's roughness: the same number, as in OpenPBR and MaterialX.
+pub fn alpha_from_roughness(roughness: f32) -> f32 {
+    roughness
+}

@@ -2,16 +2,28 @@
 //!
 //! A scene is plain data. [`gltf`] makes one from a file; whoever draws it reads it and changes nothing.
 
+mod bounds;
 mod camera;
+mod error;
+mod framing;
 pub mod gltf;
+mod islands;
 mod light;
+mod lights;
 mod material;
 mod mesh;
+mod notices;
+mod outline;
+mod rig;
 mod settings;
 
+use glam::Vec3;
+
+pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
+pub use error::SceneError;
 pub use light::{Light, Polygon};
-pub use material::{Material, Sheen};
+pub use material::{Material, Sheen, alpha_from_roughness};
 pub use mesh::{Instance, Mesh};
 pub use settings::{Lobes, Settings};
 
@@ -31,4 +43,32 @@ pub struct Scene {
     /// What the file holds and Velour does not draw, or what was added (a framing camera, a default rig): one line each,
     /// one per kind, for the caller to print.
     pub notices: Vec<String>,
+}
+
+impl Scene {
+    /// The camera that `wanted` names, else the one that it counts (from 0).
+    pub fn camera(&self, wanted: &str) -> Option<&Camera> {
+        let named = self.cameras.iter().find(|camera| camera.name == wanted);
+        named.or_else(|| self.cameras.get(wanted.parse::<usize>().ok()?))
+    }
+
+    /// A box in the world around all that is drawn. Not the smallest: rotated meshes have room in theirs.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds_of(|_| true)
+    }
+
+    /// A box around what is lit: all that is drawn and does not glow, or all where everything glows.
+    pub fn subject(&self) -> Bounds {
+        let lit = self.bounds_of(|material| material.emission == Vec3::ZERO);
+        if lit == Bounds::EMPTY { self.bounds() } else { lit }
+    }
+
+    fn bounds_of(&self, counts: impl Fn(&Material) -> bool) -> Bounds {
+        let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
+        let counted =
+            self.instances.iter().filter(|instance| counts(&self.materials[self.meshes[instance.mesh].material]));
+        counted.fold(Bounds::EMPTY, |bounds, instance| {
+            bounds.union(meshes[instance.mesh].transformed(instance.world_from_mesh))
+        })
+    }
 }

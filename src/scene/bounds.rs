@@ -1,0 +1,51 @@
+use glam::{Mat4, Vec3};
+
+/// An axis-aligned box in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub min: Vec3,
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The box of nothing, which any point widens to itself.
+    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+
+    /// The box around `points`.
+    pub fn of_points(points: &[Vec3]) -> Self {
+        points.iter().fold(Self::EMPTY, |bounds, &point| bounds.with(point))
+    }
+
+    /// Widened so that it holds `point`.
+    pub fn with(self, point: Vec3) -> Self {
+        Self { min: self.min.min(point), max: self.max.max(point) }
+    }
+
+    /// Widened so that it holds `other`.
+    pub fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The eight corners.
+    pub fn corners(&self) -> [Vec3; 8] {
+        std::array::from_fn(|corner| {
+            let side = |axis: usize| if corner >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
+            Vec3::new(side(0), side(1), side(2))
+        })
+    }
+
+    /// The box around this one, placed by an affine transform.
+    pub fn transformed(&self, matrix: Mat4) -> Self {
+        Self::of_points(&self.corners().map(|corner| matrix.transform_point3(corner)))
+    }
+
+    /// The middle; of a box that is not empty.
+    pub fn center(&self) -> Vec3 {
+        0.5 * self.min + 0.5 * self.max
+    }
+
+    /// The distance between opposite corners, 0 for an empty box.
+    pub fn diagonal(&self) -> f64 {
+        (self.max.as_dvec3() - self.min.as_dvec3()).max(glam::DVec3::ZERO).length()
+    }
+}

@@ -1,0 +1,115 @@
+//! The bytes that accessors point into: within the file, beside it, or spelled out in a data URI.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gltf::json;
+use percent_encoding::percent_decode_str;
+
+use super::Fault;
+use super::container::Document;
+use crate::scene::error::label;
+
+/// The most that is read from one file: what a .glb can say of its own length.
+const FILE_BYTES_MAX: u64 = u32::MAX as u64;
+
+/// Reads a file that must be an ordinary one: no folder, and nothing that never ends.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
+    let unreadable = |error: std::io::Error| Fault::new(format_args!("can't be read ({error}); check the path"));
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(Fault::new("is a folder; give a .gltf or .glb file"));
+    }
+    if !metadata.is_file() {
+        return Err(Fault::new("is no ordinary file; give a .gltf or .glb file"));
+    }
+    if metadata.len() > FILE_BYTES_MAX {
+        let length = metadata.len();
+        return Err(Fault::new(format_args!("{length} bytes long; files of up to {FILE_BYTES_MAX} are served")));
+    }
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(FILE_BYTES_MAX).read_to_end(&mut bytes)).map_err(unreadable)?;
+    Ok(bytes)
+}
+
+/// The bytes of every buffer, each as long as the file says. `folder` is where external ones stand; without one there
+/// are none.
+pub fn load(document: &Document, folder: Option<&Path>) -> Result<Vec<Rc<[u8]>>, Fault> {
+    // The same file may stand behind many buffers: its bytes are held once.
+    let mut files = HashMap::new();
+    let mut buffers = Vec::with_capacity(document.root.buffers.len());
+    for (index, buffer) in document.root.buffers.iter().enumerate() {
+        let place = || label("buffer", index, buffer.name.as_deref());
+        let bytes = match (&buffer.uri, document.binary) {
+            (Some(uri), _) => fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?,
+            (None, Some(binary)) if index == 0 => binary.into(),
+            (None, _) => {
+                let what = "has no data (no URI; a compressed one perhaps); export the file without compression";
+                return Err(Fault::at(place(), what));
+            }
+        };
+        let (have, said) = (bytes.len() as u64, buffer.byte_length.0);
+        if said == 0 || have < said {
+            let what = format_args!("byteLength is {said}, and its data is {have} bytes long; export the file again");
+            return Err(Fault::at(place(), what));
+        }
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}
+
+fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<[u8]>>) -> Result<Rc<[u8]>, Fault> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        return decode(data).map(Into::into);
+    }
+    let path = resolve(uri, folder)?;
+    let identity = path.canonicalize().unwrap_or_else(|_| path.clone());
+    if let Some(bytes) = files.get(&identity) {
+        return Ok(Rc::clone(bytes));
+    }
+    let bytes: Rc<[u8]> = read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?.into();
+    files.insert(identity, Rc::clone(&bytes));
+    Ok(bytes)
+}
+
+/// The data of a data URI, which follows its media type.
+fn decode(data: &str) -> Result<Vec<u8>, Fault> {
+    let encoded = data.split_once(',').and_then(|(media, data)| media.ends_with(";base64").then_some(data));
+    let encoded = encoded.ok_or_else(|| Fault::new("its data URI is not base64; export the file again"))?;
+    let broken = |error| Fault::new(format_args!("its data URI is broken ({error}); export the file again"));
+    STANDARD.decode(encoded).map_err(broken)
+}
+
+/// A path within the scene's folder: a scene is no way to reach other files of its user.
+fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
+    let shown: String = uri.chars().take(200).collect();
+    let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
+    let folder = folder.ok_or_else(|| refuse("names a file, and this scene has no folder; give a .glb file"))?;
+    if uri.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/')) {
+        return Err(refuse("has a scheme; give a path relative to the scene's folder"));
+    }
+    let decoded: Cow<str> =
+        percent_decode_str(uri).decode_utf8().map_err(|_| refuse("is not UTF-8; rename the file"))?;
+    let path = Path::new(decoded.as_ref());
+    let inside = |component| matches!(component, Component::Normal(_) | Component::CurDir);
+    if decoded.is_empty() || decoded.contains('\0') || !path.components().all(inside) {
+        return Err(refuse(
+            "leads out of the scene's folder; put the file beside the scene and name it by a relative path",
+        ));
+    }
+    Ok(folder.join(path))
+}
+
+/// The part of its buffer that a view shows.
+pub fn view<'a>(root: &json::Root, buffers: &'a [Rc<[u8]>], index: usize) -> Option<&'a [u8]> {
+    let view = root.buffer_views.get(index)?;
+    let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
+    let length = usize::try_from(view.byte_length.0).ok()?;
+    buffers.get(view.buffer.value())?.get(start..start.checked_add(length)?)
+}

@@ -1,0 +1,104 @@
+//! From text to glTF's JSON: the version, and the types of all values.
+
+use gltf::json::Root;
+use serde_json::{Map, Value};
+
+use super::Fault;
+
+/// The most of anything that a file may hold: a few bytes of JSON make hundreds in memory.
+const COUNT_MAX: usize = 1 << 20;
+
+/// Members whose numbers index, or stand for, something. Their type in `Root` is 32 bits wide, and wider numbers wrap.
+const INDICES: [&str; 19] = [
+    "buffer",
+    "bufferView",
+    "camera",
+    "children",
+    "componentType",
+    "index",
+    "indices",
+    "input",
+    "joints",
+    "material",
+    "mesh",
+    "mode",
+    "node",
+    "nodes",
+    "output",
+    "sampler",
+    "scene",
+    "skeleton",
+    "skin",
+];
+
+/// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
+pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
+    let not_gltf = |error| Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file"));
+    let mut value: Value = serde_json::from_slice(json).map_err(not_gltf)?;
+    let Value::Object(root) = &mut value else {
+        return Err(Fault::new("not a glTF file (its JSON is no object); give a .gltf or .glb file"));
+    };
+    check_version(root)?;
+    check_counts(root)?;
+    for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+        // glTF lets a scene be empty; `Root` doesn't.
+        scene.as_object_mut().map(|scene| scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new())));
+    }
+    for (key, value) in root.iter_mut() {
+        prepare(key, value)?;
+    }
+    let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
+    serde_path_to_error::deserialize(&value).map_err(wrong)
+}
+
+/// glTF 2.x, told before anything else is: a file of glTF 1 is wrong in many other ways.
+fn check_version(root: &Map<String, Value>) -> Result<(), Fault> {
+    let Some(asset) = root.get("asset") else {
+        return Err(Fault::new("not a glTF file (no asset in its JSON); give a .gltf or .glb file"));
+    };
+    let text = |key: &str| asset.get(key).and_then(Value::as_str);
+    let Some(version) = text("version") else {
+        return Err(Fault::at("asset.version", "missing or no text; export the file as glTF 2.0"));
+    };
+    if version.split('.').next() != Some("2") {
+        return Err(Fault::at("asset.version", format_args!("the file is glTF {version}; export it as glTF 2.0")));
+    }
+    match text("minVersion") {
+        None | Some("2.0") => Ok(()),
+        Some(needed) => {
+            Err(Fault::at("asset.minVersion", format_args!("needs glTF {needed}; export the file as glTF 2.0")))
+        }
+    }
+}
+
+fn check_counts(root: &Map<String, Value>) -> Result<(), Fault> {
+    let counts = root.iter().map(|(key, value)| (key, value.as_array().map_or(0, Vec::len)));
+    match counts.into_iter().find(|&(_, count)| count > COUNT_MAX) {
+        None => Ok(()),
+        Some((key, count)) => {
+            Err(Fault::at(key, format_args!("{count} entries; split the file: at most {COUNT_MAX} are served")))
+        }
+    }
+}
+
+/// Drops what nobody reads and refuses indices that would wrap. As deep as the JSON, which its parser bounds to 128.
+fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
+    match value {
+        Value::Object(members) => {
+            members.remove("extras");
+            for (name, member) in members {
+                prepare(if key == "attributes" { "index" } else { name }, member)?;
+            }
+        }
+        Value::Array(elements) => {
+            for element in elements {
+                prepare(key, element)?;
+            }
+        }
+        Value::Number(number) if INDICES.contains(&key) && number.as_u64().is_some_and(|n| n > u32::MAX.into()) => {
+            return Err(Fault::at(key, format_args!("the index {number} is out of range; export the file again")));
+        }
+        _ => {}
+    }
+    Ok(())
+}

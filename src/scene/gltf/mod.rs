@@ -1,0 +1,115 @@
+//! glTF 2.0 in (.gltf and .glb).
+//!
+//! Files come from anywhere, so nothing in them is believed: [`json`] proves the types of values, [`accessor`] the
+//! ranges, [`nodes`] that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
+//! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
+
+mod accessor;
+mod assembly;
+mod buffers;
+mod cameras;
+mod container;
+mod json;
+mod materials;
+mod nodes;
+mod primitives;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use super::error::{Fault, SceneError};
+use super::notices::Notices;
+use super::{Scene, framing, lights, rig};
+use ::gltf::json::Root;
+use accessor::Accessors;
+use assembly::Assembly;
+
+/// Extensions that a file may require.
+const SERVED: [&str; 2] = ["KHR_materials_emissive_strength", "KHR_materials_sheen"];
+/// Names are cut to this many characters: many things may bear the same one.
+const NAME_MAX: usize = 256;
+
+/// The scene in a .gltf file, with the buffers that lie beside it, or in a .glb file.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let file = path.display().to_string();
+    // Only a path without a file name has no parent.
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let scene = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder)));
+    scene.map_err(|fault| SceneError::new(&file, fault))
+}
+
+/// The scene in the bytes of a .glb, or of a .gltf with all buffers in it. `name` stands for the file in errors.
+pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
+    read(bytes, None).map_err(|fault| SceneError::new(name, fault))
+}
+
+fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
+    let document = container::parse(bytes)?;
+    let root = &document.root;
+    check_extensions(root)?;
+    let buffers = buffers::load(&document, folder)?;
+    let accessors = Accessors { root, buffers: &buffers };
+    accessors.check()?;
+    check_references(root)?;
+    let placed = nodes::place(root)?;
+    let mut notices = Notices::default();
+    let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
+    scene.cameras = cameras::read(root, &placed, &mut notices)?;
+    Assembly::new(accessors, &mut scene, &mut notices).add(&placed)?;
+    if scene.instances.is_empty() {
+        return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
+    }
+    lights::add_lights(&mut scene, &mut notices);
+    framing::add_camera(&mut scene, &mut notices);
+    rig::add_rig(&mut scene, &mut notices);
+    scene.notices = notices.into_lines().collect();
+    Ok(scene)
+}
+
+fn check_extensions(root: &Root) -> Result<(), Fault> {
+    match root.extensions_required.iter().find(|name| !SERVED.contains(&name.as_str())) {
+        None => Ok(()),
+        Some(name) => {
+            let what = format_args!("requires {}, which is not served; export the file without it", cut(name));
+            Err(Fault::at("extensionsRequired", what))
+        }
+    }
+}
+
+/// The indices that only nodes and primitives hold; others are checked where they are followed.
+fn check_references(root: &Root) -> Result<(), Fault> {
+    for (index, node) in root.nodes.iter().enumerate() {
+        let missing = |kind: &str, wanted: Option<usize>, count: usize| match wanted.filter(|&wanted| wanted >= count) {
+            None => Ok(()),
+            Some(wanted) => {
+                let what = format_args!("there is no {kind} {wanted}; export the file again");
+                Err(Fault::at(nodes::node_label(root, index), what))
+            }
+        };
+        missing("mesh", node.mesh.map(|index| index.value()), root.meshes.len())?;
+        missing("camera", node.camera.map(|index| index.value()), root.cameras.len())?;
+        missing("skin", node.skin.map(|index| index.value()), root.skins.len())?;
+    }
+    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        for (index, primitive) in primitives.iter().enumerate() {
+            let missing = |kind: &str, wanted: usize| {
+                let what = format_args!("there is no {kind} {wanted}; export the file again");
+                Err(Fault::at(assembly::primitive_label(root, mesh, index), what))
+            };
+            let accessors = primitive.attributes.values().chain(&primitive.indices);
+            if let Some(wanted) = accessors.map(|index| index.value()).find(|&index| index >= root.accessors.len()) {
+                return missing("accessor", wanted);
+            }
+            if let Some(wanted) = primitive.material.filter(|material| material.value() >= root.materials.len()) {
+                return missing("material", wanted.value());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A name of the file's, cut to a length that many things may bear.
+fn cut(name: &str) -> String {
+    name.chars().take(NAME_MAX).collect()
+}

@@ -1,0 +1,152 @@
+//! glTF files in memory.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::Vec3;
+use serde_json::{Value, json};
+
+use crate::scene::Scene;
+
+/// A file under construction: JSON, and the bytes of its one buffer.
+pub struct Builder {
+    pub json: Value,
+    pub bytes: Vec<u8>,
+}
+
+impl Builder {
+    /// A file with nothing in it.
+    pub fn new() -> Self {
+        let mut json = json!({ "asset": { "version": "2.0" } });
+        for list in ["buffers", "bufferViews", "accessors", "materials", "meshes", "nodes", "cameras"] {
+            json[list] = json!([]);
+        }
+        json["buffers"] = json!([{ "byteLength": 0 }]);
+        Self { json, bytes: Vec::new() }
+    }
+
+    /// One square of two metres in the plane z = 0, with normals, indices, a material and a node.
+    pub fn square() -> Self {
+        let mut file = Self::new();
+        let positions = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        let material =
+            file.push("materials", json!({ "name": "felt", "pbrMetallicRoughness": { "metallicFactor": 0 } }));
+        let mesh = file.mesh(&positions, Some(&[Vec3::Z; 4]), &[0, 1, 2, 0, 2, 3], Some(material));
+        file.push("nodes", json!({ "name": "square", "mesh": mesh }));
+        file
+    }
+
+    /// Adds to one of the root's lists; gives the index.
+    pub fn push(&mut self, list: &str, value: Value) -> usize {
+        let list = self.json[list].as_array_mut().unwrap();
+        list.push(value);
+        list.len() - 1
+    }
+
+    /// Adds an accessor over `bytes` in a view of its own.
+    pub fn accessor(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str) -> usize {
+        let offset = self.bytes.len();
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.json["buffers"][0]["byteLength"] = json!(self.bytes.len());
+        let view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() });
+        let view = self.push("bufferViews", view);
+        let accessor = json!({ "bufferView": view, "count": count, "componentType": component, "type": kind });
+        self.push("accessors", accessor)
+    }
+
+    pub fn vectors(&mut self, vectors: &[Vec3]) -> usize {
+        self.accessor(bytemuck::cast_slice(vectors), vectors.len(), 5126, "VEC3")
+    }
+
+    /// Adds a mesh of one primitive with 32-bit indices.
+    pub fn mesh(
+        &mut self,
+        positions: &[Vec3],
+        normals: Option<&[Vec3]>,
+        indices: &[u32],
+        material: Option<usize>,
+    ) -> usize {
+        let mut primitive = json!({ "attributes": { "POSITION": self.vectors(positions) } });
+        if let Some(normals) = normals {
+            primitive["attributes"]["NORMAL"] = json!(self.vectors(normals));
+        }
+        primitive["indices"] = json!(self.accessor(bytemuck::cast_slice(indices), indices.len(), 5125, "SCALAR"));
+        if let Some(material) = material {
+            primitive["material"] = json!(material);
+        }
+        self.push("meshes", json!({ "primitives": [primitive] }))
+    }
+
+    /// The file as a .glb.
+    pub fn glb(&self) -> Vec<u8> {
+        glb(self.json.to_string().as_bytes(), &self.bytes)
+    }
+
+    /// The file as a .gltf with its buffer in a data URI.
+    pub fn gltf(&self) -> Vec<u8> {
+        let mut json = self.json.clone();
+        let data = STANDARD.encode(&self.bytes);
+        json["buffers"][0]["uri"] = json!(format!("data:application/octet-stream;base64,{data}"));
+        json.to_string().into_bytes()
+    }
+
+    pub fn read(&self) -> Scene {
+        read(&self.glb()).unwrap()
+    }
+}
+
+/// Reads a file; what is read must be whole.
+pub fn read(bytes: &[u8]) -> Result<Scene, String> {
+    let scene = crate::scene::gltf::from_slice(bytes, "test.glb").map_err(|error| error.to_string())?;
+    check(&scene);
+    Ok(scene)
+}
+
+/// A .glb of these chunks.
+pub fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
+    let pad = |bytes: &[u8], with: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), with);
+        bytes
+    };
+    let (json, binary) = (pad(json, b' '), pad(binary, 0));
+    let length = 12 + 8 + json.len() + 8 + binary.len();
+    let word = |number: usize| (number as u32).to_le_bytes();
+    [b"glTF", &word(2)[..], &word(length), &word(json.len()), b"JSON", &json, &word(binary.len()), b"BIN\0", &binary]
+        .concat()
+}
+
+/// What holds of every scene that loading gives.
+pub fn check(scene: &Scene) {
+    assert!(!scene.cameras.is_empty() && !scene.instances.is_empty());
+    for mesh in &scene.meshes {
+        assert!(mesh.material < scene.materials.len());
+        assert!(!mesh.indices.is_empty() && mesh.indices.len() % 3 == 0);
+        assert_eq!(mesh.positions.len(), mesh.normals.len());
+        assert!(mesh.indices.iter().all(|&index| (index as usize) < mesh.positions.len()));
+        assert!(mesh.positions.iter().all(|position| position.is_finite()));
+        assert!(mesh.normals.iter().all(|normal| normal.is_normalized()), "{:?}", mesh.normals);
+    }
+    for instance in &scene.instances {
+        assert!(instance.mesh < scene.meshes.len());
+        assert!(instance.world_from_mesh.is_finite() && instance.world_from_normal().is_finite());
+    }
+    for material in &scene.materials {
+        assert!(material.base_color.is_finite() && material.emission.is_finite());
+    }
+    for light in &scene.lights {
+        assert!(light.instance < scene.instances.len() && light.radiance.is_finite() && !light.polygons.is_empty());
+        for polygon in &light.polygons {
+            assert!(polygon.normal.is_normalized() && !polygon.contours.is_empty());
+            assert!(polygon.contours.iter().all(|contour| contour.len() >= 3));
+            assert!(polygon.contours.iter().flatten().all(|corner| corner.is_finite()));
+        }
+    }
+    for camera in &scene.cameras {
+        assert!(camera.world_from_camera.is_finite());
+        assert!((camera.world_from_camera.determinant() - 1.0).abs() < 1e-4);
+    }
+    for notice in &scene.notices {
+        assert_eq!(notice.lines().count(), 1);
+    }
+}

@@ -1,0 +1,4 @@
+//! Small files made in memory, read back.
+
+mod builder;
+mod reads;

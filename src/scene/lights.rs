@@ -1,0 +1,47 @@
+//! Lights out of what glows.
+
+use glam::Vec3;
+
+use super::islands::Topology;
+use super::notices::Notices;
+use super::{Light, Scene};
+
+/// The most planar islands of an instance that lights.
+pub const ISLANDS_MAX: usize = 256;
+/// The most corners that all lights of a scene have together: every shaded point visits each.
+pub const CORNERS_MAX: usize = 8192;
+/// The most triangles of all emitters together: what is searched for islands.
+const TRIANGLES_MAX: usize = 1 << 23;
+
+/// Adds a light for every instance that emits and has no light yet. What is past a limit glows and lights nothing.
+pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
+    let (mut triangles, mut corners) = (0, 0);
+    let mut topologies: Vec<Option<Topology>> = scene.meshes.iter().map(|_| None).collect();
+    for index in scene.lights.iter().map(|light| light.instance + 1).max().unwrap_or(0)..scene.instances.len() {
+        let instance = &scene.instances[index];
+        let mesh = &scene.meshes[instance.mesh];
+        let material = &scene.materials[mesh.material];
+        if material.emission == Vec3::ZERO {
+            continue;
+        }
+        triangles += mesh.indices.len() / 3;
+        if triangles > TRIANGLES_MAX {
+            notices.add("emitters past 8388608 triangles glow but light nothing", || instance.name.clone());
+            continue;
+        }
+        let topology = topologies[instance.mesh].get_or_insert_with(|| Topology::new(mesh));
+        let Some(polygons) = topology.polygons(mesh, instance, ISLANDS_MAX) else {
+            notices.add("emitters of more than 256 flat parts glow but light nothing", || mesh.name.clone());
+            continue;
+        };
+        let own: usize = polygons.iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum();
+        if corners + own > CORNERS_MAX {
+            notices.add("emitters past 8192 corners in all glow but light nothing", || instance.name.clone());
+        } else if own > 0 {
+            corners += own;
+            let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
+            let (radiance, two_sided) = (material.emission, material.double_sided);
+            scene.lights.push(Light { name, radiance, two_sided, polygons, instance: index });
+        }
+    }
+}

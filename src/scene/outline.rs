@@ -1,0 +1,139 @@
+//! The outline of a set of triangles in a plane.
+
+use std::collections::HashMap;
+
+use glam::{DVec2, DVec3, Vec3};
+
+/// How far the outline may move for a vertex to be dropped, relative to the island's size: far below what a picture
+/// shows, above the noise of rounded positions.
+const STRAIGHT_TOLERANCE: f64 = 1e-6;
+
+/// The closed contours around `triangles` (of vertices in `positions`), which lie in a plane of unit `normal` and turn
+/// counter-clockwise seen against it: so do contours around their area; those around holes turn clockwise. Vertices on
+/// straight runs are dropped. The integral over the contours of anything linear is that over the triangles' area.
+pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DVec3], normal: DVec3) -> Vec<Vec<Vec3>> {
+    let (right, up) = normal.any_orthonormal_pair();
+    let loops = loops(boundary(triangles));
+    let corners = || loops.iter().flatten().map(|&corner| positions[corner as usize]);
+    let Some(origin) = corners().next() else { return Vec::new() };
+    let flatten = |corner: u32| {
+        let arm = positions[corner as usize] - origin;
+        DVec2::new(arm.dot(right), arm.dot(up))
+    };
+    let reach = corners().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
+    let magnitude = corners().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+    let tolerance = STRAIGHT_TOLERANCE * reach + 2.0 * f64::from(f32::EPSILON) * magnitude;
+    let contours = loops.iter().map(|corners| {
+        let flat: Vec<DVec2> = corners.iter().map(|&corner| flatten(corner)).collect();
+        let kept = bends(&flat, tolerance);
+        kept.into_iter().map(|at| positions[corners[at] as usize].as_vec3()).collect::<Vec<Vec3>>()
+    });
+    contours.filter(|contour| contour.len() >= 3).collect()
+}
+
+/// The directed edges of the triangles that no opposite one cancels, sorted.
+fn boundary(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<(u32, u32)> {
+    let mut edges: Vec<(u32, u32)> = triangles.flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    edges.sort_unstable_by_key(|&(from, to)| (from.min(to), from.max(to), from));
+    let mut boundary = Vec::new();
+    for edge in edges.chunk_by(|left, right| {
+        left.0.min(left.1) == right.0.min(right.1) && left.0.max(left.1) == right.0.max(right.1)
+    }) {
+        let (forward, backward) = edge.split_at(edge.partition_point(|(from, to)| from < to));
+        let left = forward.len().abs_diff(backward.len());
+        boundary.extend(if forward.len() > backward.len() { &forward[..left] } else { &backward[..left] });
+    }
+    boundary.sort_unstable();
+    boundary
+}
+
+/// Joins edges, as many into each vertex as out of it, to loops that pass no vertex twice. Where there is a choice any
+/// will do: the integral over all loops is the same.
+fn loops(edges: Vec<(u32, u32)>) -> Vec<Vec<u32>> {
+    let mut unused: HashMap<u32, Vec<u32>> = HashMap::new();
+    edges.iter().rev().for_each(|&(from, to)| unused.entry(from).or_default().push(to));
+    let mut loops = Vec::new();
+    for &(start, _) in &edges {
+        // The walk so far, and where on it each vertex stands. It ends where it began: elsewhere a way leads on.
+        let mut walk = vec![start];
+        let mut places = HashMap::from([(start, 0)]);
+        while let Some(next) = walk.last().and_then(|vertex| unused.get_mut(vertex)?.pop()) {
+            match places.get(&next) {
+                None => {
+                    places.insert(next, walk.len());
+                    walk.push(next);
+                }
+                Some(&place) => {
+                    let closed = walk.split_off(place + 1);
+                    for vertex in &closed {
+                        places.remove(vertex);
+                    }
+                    loops.push(std::iter::once(next).chain(closed).collect());
+                }
+            }
+        }
+    }
+    loops
+}
+
+/// Which vertices of a closed loop to keep so that no dropped one is further than `tolerance` from the line that
+/// replaces it: from each kept vertex the line is drawn out as long as some direction passes near all in between.
+fn bends(points: &[DVec2], tolerance: f64) -> Vec<usize> {
+    // The lowest of the leftmost is a corner, whatever the shape.
+    let order = |left: &DVec2, right: &DVec2| left.x.total_cmp(&right.x).then(left.y.total_cmp(&right.y));
+    let Some(start) = (0..points.len()).min_by(|&left, &right| order(&points[left], &points[right])) else {
+        return Vec::new();
+    };
+    let at = |step: usize| (start + step) % points.len();
+    let mut kept = vec![start];
+    let mut sector = Sector::new(points[start]);
+    for step in 1..=points.len() {
+        let point = points[at(step)];
+        if !sector.passes(point) {
+            kept.push(at(step - 1));
+            sector = Sector::new(points[at(step - 1)]);
+        }
+        sector.narrow(point, tolerance);
+    }
+    kept
+}
+
+/// The directions from an apex that pass near all points so far.
+struct Sector {
+    apex: DVec2,
+    /// The rightmost and leftmost direction, less than half a turn apart; none as long as every direction will do.
+    sides: Option<(DVec2, DVec2)>,
+}
+
+impl Sector {
+    fn new(apex: DVec2) -> Self {
+        Self { apex, sides: None }
+    }
+
+    /// Whether the line to `point` is among them.
+    fn passes(&self, point: DVec2) -> bool {
+        let arm = point - self.apex;
+        self.sides.is_none_or(|(right, left)| {
+            right.perp_dot(arm) >= 0.0 && arm.perp_dot(left) >= 0.0 && arm.dot(right + left) > 0.0
+        })
+    }
+
+    /// Leaves the directions that pass within `tolerance` of `point`.
+    fn narrow(&mut self, point: DVec2, tolerance: f64) {
+        let arm = point - self.apex;
+        if arm.length() <= tolerance {
+            return;
+        }
+        // The tangents from the apex to the circle of the tolerance around the point.
+        let sine = tolerance / arm.length();
+        let turn = DVec2::new((1.0 - sine * sine).sqrt(), sine);
+        let (right, left) = (DVec2::new(turn.x, -turn.y).rotate(arm), turn.rotate(arm));
+        self.sides = Some(match self.sides {
+            None => (right, left),
+            Some((old_right, old_left)) => (
+                if old_right.perp_dot(right) > 0.0 { right } else { old_right },
+                if left.perp_dot(old_left) > 0.0 { left } else { old_left },
+            ),
+        });
+    }
+}
