@@ -1,1 +1,89 @@
-fn main() {}
+//! The command line: what the user asks for, in which order it is done, and what is said about it.
+
+#[path = "main/args.rs"]
+mod args;
+#[cfg(feature = "gpu")]
+#[path = "main/draw.rs"]
+mod draw;
+#[path = "main/fit.rs"]
+mod fit;
+
+use std::process::ExitCode;
+
+use args::{Arguments, Command};
+use clap::Parser;
+
+/// How a run ends, but for success: the exit code and the line that says why.
+pub struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    /// Bad usage or bad input.
+    fn input(message: impl ToString) -> Self {
+        Self { code: 2, message: message.to_string() }
+    }
+
+    /// No graphics device, or no display for a window.
+    fn device(message: impl ToString) -> Self {
+        Self { code: 3, message: message.to_string() }
+    }
+}
+
+fn main() -> ExitCode {
+    quiet_device_selection();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(&error),
+    };
+    let done = match arguments.command {
+        #[cfg(feature = "viewer")]
+        None => draw::view_or_render_default(),
+        #[cfg(not(feature = "viewer"))]
+        None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
+        #[cfg(feature = "viewer")]
+        Some(Command::View(view)) => draw::view(&view),
+        #[cfg(feature = "gpu")]
+        Some(Command::Render(render)) => draw::render(&render),
+        #[cfg(feature = "gpu")]
+        Some(Command::Info) => draw::info(),
+        Some(Command::Fit(fit)) => fit::fit(&fit),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("velour: {}", one_line(&failure.message));
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Mesa's device selection layer asks Wayland and, where there is none, says so on stderr, where our one line belongs.
+fn quiet_device_selection() {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: the first thing that the process does, so no other thread reads the environment.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
+    }
+}
+
+/// Help and version as clap prints them; anything else in one line.
+fn usage(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        // A closed pipe is no reason to complain.
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let telling = |line: &&str| !["Usage:", "For more information"].iter().any(|start| line.starts_with(start));
+    let saying = |line: &&str| !line.is_empty() && !line.starts_with("tip:");
+    let message: Vec<&str> = text.lines().map(str::trim).take_while(telling).filter(saying).collect();
+    let message = one_line(&message.join(" "));
+    eprintln!("velour: {}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message));
+    ExitCode::from(2)
+}
+
+/// Errors are one line each, whatever a path or a name in them holds.
+fn one_line(message: &str) -> String {
+    message.chars().map(|character| if character.is_control() { '?' } else { character }).collect()
+}

@@ -37,6 +37,8 @@ pub enum WriteError {
     Extension { path: PathBuf },
     #[error("{}: cannot be written ({source}): choose another place", path.display())]
     Path { path: PathBuf, source: std::io::Error },
+    #[error("{}: its folder is not there: make it first", path.display())]
+    NoFolder { path: PathBuf },
     #[error("{}: is a folder: give a file's name", path.display())]
     Folder { path: PathBuf },
     #[error("the picture cannot be encoded as {format} ({source})")]
@@ -66,6 +68,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 fn temporary_beside(path: &Path) -> Result<tempfile::NamedTempFile, WriteError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(WriteError::NoFolder { path: path.to_owned() });
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".velour-");
     // Like any new file: what the user's umask leaves of it, not tempfile's owner-only default.

@@ -29,7 +29,9 @@ use crate::table::LtcTable;
 /// A picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    #[error("{what} take {bytes} bytes on the device, which holds at most {limit} in one piece: split the mesh or use another adapter")]
+    #[error(
+        "{what} take {bytes} bytes on the device, which holds at most {limit} in one piece: split the mesh or use another adapter"
+    )]
     TooLarge { what: String, bytes: u64, limit: u64 },
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
     Size { size: [u32; 2], limit: u32 },

@@ -37,7 +37,6 @@ pub struct SurfacesPass {
     shader: wgpu::ShaderModule,
     radiance: RadianceFormat,
     frame: wgpu::Buffer,
-    sheen_table: wgpu::TextureView,
     bind_group: BindGroup,
 }
 
@@ -62,15 +61,9 @@ impl SurfacesPass {
         let layout = bind_group_layout(device);
         let sheen_table = table_texture(device, queue, table);
         let bind_group = bind_group(device, &layout, &frame, &sheen_table, resident);
-        let mut pass = Self { layout, pipelines: HashMap::new(), shader, radiance, frame, sheen_table, bind_group };
+        let mut pass = Self { layout, pipelines: HashMap::new(), shader, radiance, frame, bind_group };
         pass.prepare(device, resident);
         pass
-    }
-
-    /// Binds another scene.
-    pub(super) fn bind(&mut self, device: &Device, resident: &Resident) {
-        self.bind_group = bind_group(device, &self.layout, &self.frame, &self.sheen_table, resident);
-        self.prepare(device, resident);
     }
 
     /// Makes the pipelines that the scene needs and that are not there yet.

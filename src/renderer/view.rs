@@ -59,9 +59,7 @@ impl View {
 
 /// The projection on its own; `aspect` = width / height.
 fn clip_from_camera(projection: Projection, aspect: f64) -> DMat4 {
-    let scale = |y: f64, depth: [DVec4; 2]| {
-        DMat4::from_cols(DVec4::X * (y / aspect), DVec4::Y * y, depth[0], depth[1])
-    };
+    let scale = |y: f64, depth: [DVec4; 2]| DMat4::from_cols(DVec4::X * (y / aspect), DVec4::Y * y, depth[0], depth[1]);
     match projection {
         Projection::Perspective { yfov, near, far } => {
             let (near, far) = (f64::from(near), f64::from(far));

@@ -1,0 +1,201 @@
+//! What each command does, step by step. What can fail comes before anything is written or said.
+
+use std::path::Path;
+use std::time::Instant;
+
+use serde_json::json;
+use velour::picture::{Format, check_writable, write_atomically};
+use velour::renderer::device::{self, Gpu};
+use velour::renderer::{Offscreen, RenderError};
+use velour::scene::{Camera, Scene, Settings, gltf};
+use velour::table::LtcTable;
+
+use crate::Failure;
+use crate::args::{Render, Switch};
+
+/// The scene that is shown when none is named, embedded so that the program runs from any folder.
+const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../assets/drape.glb"));
+
+/// Seconds spent in the parts of a run, in order.
+#[derive(Default)]
+struct Timing(Vec<(&'static str, f64)>);
+
+impl Timing {
+    fn measure<T>(&mut self, part: &'static str, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let done = work();
+        self.0.push((part, start.elapsed().as_secs_f64()));
+        done
+    }
+
+    fn total(&self) -> f64 {
+        self.0.iter().map(|(_, seconds)| seconds).sum()
+    }
+}
+
+pub fn render(arguments: &Render) -> Result<(), Failure> {
+    let format = Format::of(&arguments.output).map_err(Failure::input)?;
+    check_writable(&arguments.output).map_err(Failure::input)?;
+    let mut timing = Timing::default();
+    let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
+        let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
+        Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
+    })?;
+    let camera = camera(&scene, arguments.camera.as_deref())?;
+    let gpu = timing.measure("device", || open(arguments.adapter.as_deref()))?;
+    let bytes = draw(&gpu, arguments, format, (&scene, camera, &table), &mut timing)?;
+    timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
+    scene.notices.iter().for_each(|notice| eprintln!("velour: {notice}"));
+    report(arguments, &scene, &gpu, &timing);
+    Ok(())
+}
+
+/// The picture's file, in memory.
+fn draw(
+    gpu: &Gpu,
+    arguments: &Render,
+    format: Format,
+    (scene, camera, table): (&Scene, &Camera, &LtcTable),
+    timing: &mut Timing,
+) -> Result<Vec<u8>, Failure> {
+    let settings = settings(arguments);
+    let samples = arguments.msaa;
+    let encoded = match format {
+        Format::Png => {
+            let renderer =
+                timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, &settings));
+            let mut renderer = renderer.map_err(Failure::input)?;
+            let tone = arguments.tonemap.into();
+            let picture = timing
+                .measure("frame", || gpu.block_on(renderer.display(gpu, camera, arguments.size, &settings, tone)));
+            timing.measure("encode", || Ok(picture?.to_png()))
+        }
+        Format::Exr => {
+            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, &settings));
+            let mut renderer = renderer.map_err(Failure::input)?;
+            let picture =
+                timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, arguments.size, &settings)));
+            timing.measure("encode", || Ok(picture?.to_exr()))
+        }
+    };
+    encoded.map_err(|error: RenderError| Failure::input(error))?.map_err(Failure::input)
+}
+
+fn settings(arguments: &Render) -> Settings {
+    Settings {
+        lobes: arguments.lobes,
+        lights_visible: arguments.lights_visible == Switch::On,
+        exposure: arguments.exposure,
+        alpha: arguments.alpha,
+        sheen_color: arguments.sheen_color.map(Into::into),
+    }
+}
+
+fn sheen_table(path: Option<&Path>) -> Result<LtcTable, Failure> {
+    path.map_or_else(|| Ok(LtcTable::embedded()), |path| LtcTable::load(path).map_err(Failure::input))
+}
+
+fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Failure> {
+    let Some(wanted) = wanted else {
+        return scene.cameras.first().ok_or_else(|| Failure::input("the scene has no camera"));
+    };
+    scene.camera(wanted).ok_or_else(|| {
+        let names: Vec<String> =
+            scene.cameras.iter().enumerate().map(|(index, camera)| format!("{index} ({})", camera.name)).collect();
+        Failure::input(format!("--camera {wanted}: the scene has no such camera; it has {}", names.join(", ")))
+    })
+}
+
+fn open(adapter: Option<&str>) -> Result<Gpu, Failure> {
+    pollster::block_on(device::open_offscreen(adapter)).map_err(Failure::device)
+}
+
+fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
+    let adapter = gpu.adapter.get_info();
+    let [width, height] = arguments.size;
+    let output = arguments.output.display();
+    if !arguments.json {
+        println!("{output}: {width}x{height} on {} in {:.2} s", adapter.name, timing.total());
+        return;
+    }
+    let triangles = |mesh: usize| scene.meshes[mesh].indices.len() / 3;
+    let seconds: serde_json::Map<_, _> =
+        timing.0.iter().map(|(part, seconds)| (part.to_string(), json!(seconds))).collect();
+    let figures = json!({
+        "output": output.to_string(),
+        "size": arguments.size,
+        "msaa": arguments.msaa,
+        "adapter": adapter.name,
+        "backend": format!("{:?}", adapter.backend).to_lowercase(),
+        "triangles": scene.instances.iter().map(|instance| triangles(instance.mesh)).sum::<usize>(),
+        "lights": scene.lights.len(),
+        "polygons": scene.lights.iter().map(|light| light.polygons.len()).sum::<usize>(),
+        "seconds": seconds,
+        "total_seconds": timing.total(),
+    });
+    println!("{figures}");
+}
+
+#[cfg(feature = "viewer")]
+pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
+    let scene = match &arguments.scene {
+        Some(path) => gltf::load(path).map_err(Failure::input)?,
+        None => default_scene()?,
+    };
+    scene.notices.iter().for_each(|notice| eprintln!("velour: {notice}"));
+    let name = arguments.scene.as_ref().map_or(DEFAULT_SCENE.0.into(), |path| path.display().to_string());
+    let event_loop = velour::viewer::event_loop().map_err(Failure::device)?;
+    velour::viewer::run(event_loop, &name, scene, LtcTable::embedded()).map_err(Failure::device)
+}
+
+/// The viewer on the default scene; without a display, the picture that it would show.
+#[cfg(feature = "viewer")]
+pub fn view_or_render_default() -> Result<(), Failure> {
+    let scene = default_scene()?;
+    match velour::viewer::event_loop() {
+        Ok(event_loop) => {
+            velour::viewer::run(event_loop, DEFAULT_SCENE.0, scene, LtcTable::embedded()).map_err(Failure::device)
+        }
+        Err(no_display) => {
+            let output = Path::new("velour.png");
+            check_writable(output).map_err(Failure::input)?;
+            let gpu = open(None)?;
+            let settings = Settings::default();
+            let table = LtcTable::embedded();
+            let renderer = Offscreen::for_display(&gpu, 4, &table, &scene, &settings);
+            let mut renderer = renderer.map_err(Failure::input)?;
+            let camera = camera(&scene, None)?;
+            let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
+            let bytes = picture.map_err(Failure::input)?.to_png().map_err(Failure::input)?;
+            write_atomically(output, &bytes).map_err(Failure::input)?;
+            println!("{no_display}: rendered the default scene to {}", output.display());
+            Ok(())
+        }
+    }
+}
+
+#[cfg(feature = "viewer")]
+fn default_scene() -> Result<Scene, Failure> {
+    gltf::from_slice(DEFAULT_SCENE.1, DEFAULT_SCENE.0).map_err(Failure::input)
+}
+
+pub fn info() -> Result<(), Failure> {
+    println!("velour {}", env!("CARGO_PKG_VERSION"));
+    let adapters =
+        pollster::block_on(device::instance(wgpu::Backends::all()).enumerate_adapters(wgpu::Backends::all()));
+    if adapters.is_empty() {
+        println!("adapters: none");
+    }
+    for adapter in adapters {
+        let about = adapter.get_info();
+        let limits = adapter.limits();
+        println!("adapter: {} ({:?}, {:?}, {})", about.name, about.backend, about.device_type, about.driver_info);
+        println!("  largest picture: {0}x{0}", limits.max_texture_dimension_2d);
+        println!("  largest buffer: {} MiB", limits.max_buffer_size >> 20);
+        println!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20);
+    }
+    let table = LtcTable::embedded();
+    let [alphas, mus] = table.size();
+    println!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum());
+    Ok(())
+}
