@@ -1,1 +1,6 @@
-//! (to be written)
+//! From lobes to the table.
+
+pub mod hemisphere;
+pub mod least_squares;
+pub mod lobe;
+pub mod ltc;

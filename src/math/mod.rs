@@ -1,1 +1,4 @@
-//! (to be written)
+//! Quadrature and sampling warps: `f64`, no domain knowledge.
+
+pub mod quadrature;
+pub mod warp;

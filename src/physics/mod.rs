@@ -1,1 +1,9 @@
-//! (to be written)
+//! The slab of fibres, stated and solved.
+//!
+//! A flat layer of density 1 and thickness 1, of fibre-like SGGX microflakes whose axis is the normal, that absorb
+//! nothing; black below, nothing above. [`sggx`] is the medium, [`slab`] the layer with what is known of it in closed
+//! form, [`walk`] its solution by random walk.
+
+pub mod sggx;
+pub mod slab;
+pub mod walk;

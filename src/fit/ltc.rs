@@ -1,0 +1,33 @@
+//! The model that is fitted: a clamped cosine, linearly transformed.
+
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// The inverse matrix (a, 0, b), (0, a, 0), (0, 0, 1), by rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ltc {
+    pub a: f64,
+    pub b: f64,
+}
+
+impl Ltc {
+    /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
+    ///
+    /// D(v) |det M^-1| / |v|^3 with v = M^-1 wo and D the cosine's density z/pi on the unit sphere, thus
+    /// a^2 z / (pi |v|^4).
+    pub fn density(&self, wo: DVec3) -> f64 {
+        self.density_and_slopes(wo).0
+    }
+
+    /// The density and its derivatives by ln(a) and by b.
+    pub fn density_and_slopes(&self, wo: DVec3) -> (f64, [f64; 2]) {
+        let Self { a, b } = *self;
+        let (x, y, z) = (a * wo.x + b * wo.z, a * wo.y, wo.z);
+        let square = x * x + y * y + z * z;
+        let density = a * a * z.max(0.0) / (PI * square * square);
+        // Of ln(square), by a times a and by b.
+        let by_ln_a = 2.0 * a * (x * wo.x + y * wo.y) / square;
+        let by_b = 2.0 * x * wo.z / square;
+        (density, [density * (2.0 - 2.0 * by_ln_a), density * -2.0 * by_b])
+    }
+}
