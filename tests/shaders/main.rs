@@ -1,3 +1,6 @@
 //! The shader files that people copy.
 
+mod device;
 mod files;
+mod form_factor;
+mod polygons;
