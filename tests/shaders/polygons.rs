@@ -35,8 +35,9 @@ impl Case {
     /// The exact form factors of the diffuse lobe and of `m_inv`.
     pub fn exact(&self) -> [f64; 2] {
         let normal = self.normal.as_dvec3().normalize();
-        let view = self.view.as_dvec3();
-        let x = (view - normal * normal.dot(view)).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        let tangent = self.view.as_dvec3().reject_from_normalized(normal);
+        // Where the view is the normal to its last digit, the frame is anyone's.
+        let x = if tangent.length() < 1e-9 { normal.any_orthonormal_vector() } else { tangent.normalize() };
         let local_from_world = DMat3::from_cols(x, normal.cross(x), normal).transpose();
         let local = |vertex: &Vec3| local_from_world * (vertex.as_dvec3() - self.position.as_dvec3());
         let contours: Vec<Vec<DVec3>> =
@@ -181,10 +182,14 @@ pub fn place(random: &mut Pcg64, outline: &[DVec2], stand: DVec3, size: f64, spa
     Case { position, normal: normal.as_vec3(), view, contours, light_normal, two_sided, m_inv }
 }
 
-/// The unit normal of a contour, as a loader makes it from the vertices it holds (Newell).
-pub fn normal_of(contour: &[Vec3]) -> Vec3 {
+/// The unit normal of a contour, as a loader makes it from the vertices it holds.
+fn normal_of(contour: &[Vec3]) -> Vec3 {
+    area_of(contour).normalize_or_zero().as_vec3()
+}
+
+/// The area of a contour times its normal (Newell), exact for the vertices given.
+pub fn area_of(contour: &[Vec3]) -> DVec3 {
     let about = contour[0].as_dvec3();
     let next = contour.iter().cycle().skip(1);
-    let area: DVec3 = contour.iter().zip(next).map(|(p, q)| (p.as_dvec3() - about).cross(q.as_dvec3() - about)).sum();
-    area.normalize_or_zero().as_vec3()
+    contour.iter().zip(next).map(|(p, q)| (p.as_dvec3() - about).cross(q.as_dvec3() - about) / 2.0).sum()
 }
