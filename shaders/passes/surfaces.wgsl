@@ -13,6 +13,7 @@ struct SurfacesFrame {
 struct SurfacesInstance {
     world_from_mesh: mat4x4f,
     normal_from_mesh: mat3x3f,
+    emission: vec3f,
     material: u32,
 }
 
@@ -20,7 +21,6 @@ struct SurfacesMaterial {
     base_color: vec3f,
     alpha: f32,
     sheen_color: vec3f,
-    emission: vec3f,
 }
 
 struct SurfacesPolygon {
@@ -44,7 +44,8 @@ struct SurfacesVarying {
     // Centroid: at a silhouette the centre of a multisampled pixel may lie off the triangle.
     @location(0) @interpolate(perspective, centroid) p_world: vec3f,
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
-    @location(2) @interpolate(flat) material: u32,
+    @location(2) @interpolate(flat) emission: vec3f,
+    @location(3) @interpolate(flat) material: u32,
 }
 
 @vertex
@@ -59,6 +60,7 @@ fn surfaces_vertex(
     out.p_world = p_world.xyz;
     // Unit length before interpolation, whatever the transform's scale.
     out.n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
+    out.emission = surfaces_instances[index].emission;
     out.material = surfaces_instances[index].material;
     return out;
 }
@@ -101,7 +103,7 @@ fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: b
     let lobe = sheen_lobe(surfaces_sheen_table, material.alpha, max(dot(normal, view), 0.0));
     let sheen_weight = surfaces_frame.lobes.x * lobe.albedo * material.sheen_color;
     let base_weight = surfaces_frame.lobes.y * sheen_base_weight(material.sheen_color, lobe.albedo) * material.base_color;
-    var radiance = surfaces_frame.lobes.z * material.emission;
+    var radiance = surfaces_frame.lobes.z * in.emission;
     for (var index = 0u; index < surfaces_frame.polygon_count; index++) {
         let polygon = surfaces_polygons[index];
         let form_factors = surfaces_form_factors(polygon, in.p_world, local_from_world, lobe.m_inv);

@@ -46,6 +46,11 @@ pub fn instance(backends: Backends) -> Instance {
     Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_without_display_handle() })
 }
 
+/// The same for a window, which `display` is the display of.
+pub fn instance_for_window(backends: Backends, display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>) -> Instance {
+    Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_with_display_handle(display) })
+}
+
 /// Opens a device to draw pictures without a window: the adapter whose name contains `name_part` (case does not count),
 /// or the best one where none is asked for.
 pub async fn open_offscreen(name_part: Option<&str>) -> Result<Gpu, DeviceError> {

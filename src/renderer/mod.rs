@@ -25,7 +25,7 @@ use resident::Resident;
 use surfaces::SurfacesPass;
 use targets::Targets;
 
-use crate::scene::{Camera, Scene, Settings};
+use crate::scene::{Scene, Settings};
 use crate::table::LtcTable;
 
 /// A picture could not be made.
@@ -80,26 +80,32 @@ impl Renderer {
         self.surfaces.prepare(&gpu.device, &self.resident);
     }
 
-    /// Draws the view into the rectangle `place` of the output, whose other pixels become black.
-    pub fn encode(
+    /// The first pass: draws the view's radiance into targets of this size, which stay for `show`.
+    pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        (output, place): (&wgpu::TextureView, Rect),
-        (view, settings, showing): (&View, &Settings, Showing),
+        size: [u32; 2],
+        (view, settings): (&View, &Settings),
     ) {
-        let size = [place.width, place.height];
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
             _ => Targets::new(&gpu.device, size, self.format.radiance),
         };
         self.surfaces.encode(&gpu.queue, encoder, &targets, &self.resident, (view, settings));
-        self.display.encode((&gpu.device, &gpu.queue), encoder, &targets, (output, place), showing);
         self.targets = Some(targets);
     }
 
-    /// What the camera sees in the whole of a picture of this size.
-    pub fn view(camera: &Camera, size: [u32; 2]) -> View {
-        View::new(camera, size, Rect::full(size))
+    /// The second pass: shows what was drawn last, from the output's pixel `origin` on; the output's other pixels become black.
+    pub fn show(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        (output, origin): (&wgpu::TextureView, [u32; 2]),
+        showing: Showing,
+    ) {
+        let Some(targets) = &self.targets else { return };
+        let place = Rect { x: origin[0], y: origin[1], width: targets.size[0], height: targets.size[1] };
+        self.display.encode((&gpu.device, &gpu.queue), encoder, targets, (output, place), showing);
     }
 }

@@ -132,9 +132,9 @@ impl Offscreen {
             mapped_at_creation: false,
         });
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-        let place = Rect { x: 0, y: 0, ..tile };
         let output_view = output.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.encode(gpu, &mut encoder, (&output_view, place), (view, settings, showing));
+        self.renderer.draw(gpu, &mut encoder, [tile.width, tile.height], (view, settings));
+        self.renderer.show(gpu, &mut encoder, (&output_view, [0, 0]), showing);
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
         encoder.copy_texture_to_buffer(
             output.as_image_copy(),

@@ -24,8 +24,9 @@ pub(super) struct GpuInstance {
     world_from_mesh: Mat4,
     /// Columns of the matrix that takes normals to the world; up to a positive factor the inverse transpose.
     normal_from_mesh: [Vec4; 3],
+    /// Radiance that the surface emits: its light's, or its material's.
+    emission: Vec3,
     material: u32,
-    padding: [u32; 3],
 }
 
 /// `SurfacesMaterial` of `surfaces.wgsl`.
@@ -36,7 +37,6 @@ pub(super) struct GpuMaterial {
     alpha: f32,
     sheen_color: Vec3,
     padding: u32,
-    emission: Vec4,
 }
 
 /// `SurfacesPolygon` of `surfaces.wgsl`.
@@ -119,26 +119,28 @@ impl Resident {
 
 /// All instances sorted by how they are drawn, and the calls that draw them.
 fn instances(scene: &Scene, settings: &Settings) -> (Vec<GpuInstance>, Vec<Batch>) {
-    let mut hidden = vec![false; scene.instances.len()];
-    if !settings.lights_visible {
-        scene.lights.iter().for_each(|light| hidden[light.instance] = true);
-    }
+    let mut lights = vec![None; scene.instances.len()];
+    scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
     let mut groups: BTreeMap<(Facing, usize), Vec<GpuInstance>> = BTreeMap::new();
     let mut unseen = Vec::new();
-    for (instance, hidden) in scene.instances.iter().zip(hidden) {
+    for (instance, light) in scene.instances.iter().zip(lights) {
         let world_from_mesh = instance.world_from_mesh;
+        let material = scene.meshes[instance.mesh].material;
         let linear = DMat3::from_mat4(world_from_mesh.as_dmat4());
-        let facing = Facing {
-            double_sided: scene.materials[scene.meshes[instance.mesh].material].double_sided,
-            mirrored: linear.determinant() < 0.0,
-        };
+        let facing =
+            Facing { double_sided: scene.materials[material].double_sided, mirrored: linear.determinant() < 0.0 };
         let gpu_instance = GpuInstance {
             world_from_mesh,
             normal_from_mesh: normal_from_mesh(linear),
-            material: scene.meshes[instance.mesh].material as u32,
-            padding: [0; 3],
+            emission: light.map_or(scene.materials[material].emission, |light| light.radiance),
+            material: material as u32,
         };
-        if hidden { &mut unseen } else { groups.entry((facing, instance.mesh)).or_default() }.push(gpu_instance);
+        if light.is_some() && !settings.lights_visible {
+            &mut unseen
+        } else {
+            groups.entry((facing, instance.mesh)).or_default()
+        }
+        .push(gpu_instance);
     }
     let mut sorted = Vec::with_capacity(scene.instances.len());
     let mut batches = Vec::with_capacity(groups.len());
@@ -170,7 +172,6 @@ fn materials(scene: &Scene, settings: &Settings) -> Vec<GpuMaterial> {
             alpha: sheen.map_or(0.0, |sheen| alpha_from_roughness(sheen.roughness)),
             sheen_color: sheen.map_or(Vec3::ZERO, |sheen| sheen.color),
             padding: 0,
-            emission: material.emission.extend(0.0),
         }
     };
     scene.materials.iter().map(convert).collect()

@@ -1,26 +1,41 @@
-//! The window: winit and egui around the renderer.
+//! A window to explore a scene in: winit and egui around the renderer.
+//!
+//! The picture stands beside the panel, never under it, and is drawn only when something has changed.
 
+mod frame;
+mod layout;
+mod orbit;
+mod panel;
+mod state;
+mod window;
+
+use winit::event_loop::EventLoop;
+
+use crate::renderer::{DeviceError, RenderError};
 use crate::scene::Scene;
 use crate::table::LtcTable;
 
-/// No window could be opened.
+/// The window could not be opened, or not kept.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
-    #[error("no display ({0})")]
+    #[error("no display ({0}): use `velour render`")]
     NoDisplay(String),
+    #[error("the window cannot be used ({0}): use `velour render`")]
+    Window(String),
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
 }
 
 /// Connects to the display.
-pub fn event_loop() -> Result<winit::event_loop::EventLoop<()>, ViewerError> {
-    winit::event_loop::EventLoop::new().map_err(|error| ViewerError::NoDisplay(error.to_string()))
+pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
+    EventLoop::new().map_err(|error| ViewerError::NoDisplay(error.to_string()))
 }
 
-/// Shows the scene until the window is closed.
-pub fn run(
-    _event_loop: winit::event_loop::EventLoop<()>,
-    _name: &str,
-    _scene: Scene,
-    _table: LtcTable,
-) -> Result<(), ViewerError> {
-    Ok(())
+/// Shows the scene, which is called `name`, until the window is closed.
+pub fn run(event_loop: EventLoop<()>, name: &str, scene: Scene, table: LtcTable) -> Result<(), ViewerError> {
+    let mut app = window::App::new(state::State::new(name, scene), table);
+    event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
+    app.failure.map_or(Ok(()), Err)
 }

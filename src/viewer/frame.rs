@@ -1,0 +1,191 @@
+//! One frame of the window: the scene's passes, and egui over them.
+
+use std::path::PathBuf;
+
+use egui_wgpu::ScreenDescriptor;
+use wgpu::{CurrentSurfaceTexture, TextureView};
+
+use super::ViewerError;
+use super::state::{Change, State};
+use crate::picture::write_atomically;
+use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
+use crate::table::LtcTable;
+
+/// Samples a pixel, in the window and in screenshots.
+const SAMPLES: u32 = 4;
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Presented {
+    Yes,
+    /// The surface had changed: draw again.
+    Again,
+    /// Nobody can see the window: draw when something happens.
+    Hidden,
+}
+
+/// The surface and what draws on it.
+pub(super) struct Frame {
+    surface: wgpu::Surface<'static>,
+    configuration: wgpu::SurfaceConfiguration,
+    gpu: Gpu,
+    renderer: Renderer,
+    egui: egui_wgpu::Renderer,
+    /// Where the picture was drawn last.
+    place: Rect,
+}
+
+impl Frame {
+    pub fn new(
+        surface: wgpu::Surface<'static>,
+        gpu: Gpu,
+        size: [u32; 2],
+        state: &State,
+        table: &LtcTable,
+    ) -> Result<Self, ViewerError> {
+        let configuration = surface
+            .get_default_config(&gpu.adapter, size[0].max(1), size[1].max(1))
+            .ok_or_else(|| ViewerError::Window("the adapter cannot present to it".to_owned()))?;
+        let formats = surface.get_capabilities(&gpu.adapter).formats;
+        // The shaders encode sRGB themselves, as egui expects it.
+        let plain = formats.iter().copied().find(|format| !format.is_srgb());
+        let configuration =
+            wgpu::SurfaceConfiguration { format: plain.unwrap_or(configuration.format), ..configuration };
+        surface.configure(&gpu.device, &configuration);
+        let format =
+            Format { radiance: RadianceFormat::display(SAMPLES), output: configuration.format, measured: false };
+        let renderer = Renderer::new(&gpu, format, table, &state.scene, &state.settings)?;
+        let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
+        Ok(Self { surface, configuration, gpu, renderer, egui, place: Rect::full([0, 0]) })
+    }
+
+    pub fn max_texture_side(&self) -> usize {
+        self.gpu.device.limits().max_texture_dimension_2d as usize
+    }
+
+    pub fn resize(&mut self, size: [u32; 2]) {
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        [self.configuration.width, self.configuration.height] = size.map(|side| side.clamp(1, limit));
+        self.surface.configure(&self.gpu.device, &self.configuration);
+    }
+
+    /// Draws what has changed and presents it.
+    pub fn draw(
+        &mut self,
+        (context, mut output): (&egui::Context, egui::FullOutput),
+        state: &State,
+        picture: egui::Rect,
+        change: Change,
+    ) -> Result<Presented, ViewerError> {
+        for (id, deltas) in output.textures_delta.set.drain() {
+            for delta in deltas {
+                self.egui.update_texture(&self.gpu.device, &self.gpu.queue, id, &delta);
+            }
+        }
+        let freed = std::mem::take(&mut output.textures_delta.free);
+        let surface_texture = match self.surface.get_current_texture() {
+            CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
+            CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
+                self.surface.configure(&self.gpu.device, &self.configuration);
+                return Ok(Presented::Again);
+            }
+            CurrentSurfaceTexture::Timeout | CurrentSurfaceTexture::Occluded => return Ok(Presented::Hidden),
+            CurrentSurfaceTexture::Validation => {
+                return Err(ViewerError::Window("its surface is not valid".to_owned()));
+            }
+        };
+        let view = surface_texture.texture.create_view(&Default::default());
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        self.draw_scene(&mut encoder, &view, state, self.place_in_pixels(picture, output.pixels_per_point), change);
+        let jobs = context.tessellate(output.shapes, output.pixels_per_point);
+        self.draw_egui(&mut encoder, &view, &jobs, output.pixels_per_point);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.queue.present(surface_texture);
+        // Never more than one frame ahead, so that a slow driver still answers to the latest drag; and the frame time is
+        // the frame's.
+        let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+        freed.iter().for_each(|id| self.egui.free_texture(id));
+        Ok(Presented::Yes)
+    }
+
+    fn draw_scene(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        output: &TextureView,
+        state: &State,
+        place: Rect,
+        change: Change,
+    ) {
+        if change == Change::Scene {
+            self.renderer.update(&self.gpu, &state.scene, &state.settings);
+        }
+        let size = [place.width, place.height];
+        if change >= Change::Drawn || place != self.place {
+            let view = View::new(&state.orbit.camera(), size, Rect::full(size));
+            self.renderer.draw(&self.gpu, encoder, size, (&view, &state.settings));
+            self.place = place;
+        }
+        let showing = Showing::Shown { exposure: state.settings.exposure, tone: state.tone };
+        self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
+    }
+
+    fn draw_egui(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        output: &TextureView,
+        jobs: &[egui::ClippedPrimitive],
+        pixels_per_point: f32,
+    ) {
+        let size_in_pixels = [self.configuration.width, self.configuration.height];
+        let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
+        // No paint callbacks are used, so there are no command buffers of theirs.
+        self.egui.update_buffers(&self.gpu.device, &self.gpu.queue, encoder, jobs, &screen);
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("egui"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: output,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+            })],
+            ..Default::default()
+        });
+        self.egui.render(&mut pass.forget_lifetime(), jobs, &screen);
+    }
+
+    /// The picture's pixels: at least one, none outside the surface.
+    fn place_in_pixels(&self, picture: egui::Rect, pixels_per_point: f32) -> Rect {
+        let pixels = |points: f32, limit: u32| (points * pixels_per_point).round().clamp(0.0, limit as f32) as u32;
+        let (width, height) = (self.configuration.width, self.configuration.height);
+        let (x, y) = (pixels(picture.min.x, width - 1), pixels(picture.min.y, height - 1));
+        Rect {
+            x,
+            y,
+            width: pixels(picture.max.x, width).saturating_sub(x).max(1),
+            height: pixels(picture.max.y, height).saturating_sub(y).max(1),
+        }
+    }
+
+    /// Saves the picture as it is shown, without the panel, into the current folder; says where, or why not.
+    pub fn screenshot(&self, state: &State, table: &LtcTable) -> String {
+        let Some(path) = free_name() else { return "velour-001.png to velour-999.png are taken".to_owned() };
+        let size = [self.place.width, self.place.height];
+        let picture = || -> Result<Vec<u8>, String> {
+            let renderer = Offscreen::for_display(&self.gpu, SAMPLES, table, &state.scene, &state.settings);
+            let mut renderer = renderer.map_err(|error| error.to_string())?;
+            let camera = state.orbit.camera();
+            let image = self.gpu.block_on(renderer.display(&self.gpu, &camera, size, &state.settings, state.tone));
+            image.map_err(|error| error.to_string())?.to_png().map_err(|error| error.to_string())
+        };
+        let written = picture().and_then(|bytes| write_atomically(&path, &bytes).map_err(|error| error.to_string()));
+        match written {
+            Ok(()) => format!("saved {}", path.display()),
+            Err(error) => error,
+        }
+    }
+}
+
+/// The first of velour-001.png to velour-999.png that is not there.
+fn free_name() -> Option<PathBuf> {
+    (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.png"))).find(|path| !path.exists())
+}

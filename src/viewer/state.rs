@@ -1,0 +1,61 @@
+//! What the window shows and the user changes.
+
+use std::time::Duration;
+
+use super::orbit::Orbit;
+use crate::picture::ToneCurve;
+use crate::scene::{Scene, Settings, Sheen};
+
+/// What a change asks for, from least to most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Change {
+    #[default]
+    None,
+    /// Exposure or tone curve: what was drawn is shown anew.
+    Shown,
+    /// The view, or which lobes are summed: the scene is drawn anew.
+    Drawn,
+    /// Materials or lights: they are taken over by the device first.
+    Scene,
+}
+
+/// The scene as it is now, and as it was loaded.
+pub struct State {
+    /// The file's name.
+    pub name: String,
+    pub scene: Scene,
+    pub settings: Settings,
+    pub tone: ToneCurve,
+    pub orbit: Orbit,
+    /// The material that the panel shows.
+    pub material: usize,
+    /// How long the last drawn frame took.
+    pub frame_time: Option<Duration>,
+    /// What the last command did: a screenshot's name, or why there is none.
+    pub message: String,
+    loaded: Scene,
+}
+
+impl State {
+    /// The scene has at least one camera and one material.
+    pub fn new(name: &str, scene: Scene) -> Self {
+        assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
+        let has_sheen = |sheen: Option<Sheen>| sheen.is_some_and(|sheen| sheen.color.max_element() > 0.0);
+        Self {
+            name: name.to_owned(),
+            settings: Settings::default(),
+            tone: ToneCurve::default(),
+            orbit: Orbit::new(&scene.cameras[0], scene.subject().center()),
+            material: scene.materials.iter().position(|material| has_sheen(material.sheen)).unwrap_or(0),
+            frame_time: None,
+            message: String::new(),
+            loaded: scene.clone(),
+            scene,
+        }
+    }
+
+    /// Everything as it was loaded.
+    pub fn reset(&mut self) {
+        *self = Self { frame_time: self.frame_time, ..Self::new(&self.name, self.loaded.clone()) };
+    }
+}

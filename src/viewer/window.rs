@@ -1,0 +1,153 @@
+//! The window: its events, its surface, and when something is drawn.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::ViewportId;
+use winit::application::ApplicationHandler;
+use winit::dpi::LogicalSize;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::window::{Window, WindowId};
+
+use super::ViewerError;
+use super::frame::{Frame, Presented};
+use super::state::{Change, State};
+use crate::renderer::device;
+use crate::table::LtcTable;
+
+/// The program between its events.
+pub(super) struct App {
+    state: State,
+    table: LtcTable,
+    /// From the first `resumed` on.
+    open: Option<Open>,
+    /// Why the loop was left, if not by the user.
+    pub failure: Option<ViewerError>,
+}
+
+struct Open {
+    window: Arc<Window>,
+    frame: Frame,
+    egui: egui_winit::State,
+    /// What has changed since the last frame.
+    change: Change,
+}
+
+impl App {
+    pub fn new(state: State, table: LtcTable) -> Self {
+        Self { state, table, open: None, failure: None }
+    }
+
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
+        let attributes = Window::default_attributes()
+            .with_title(format!("Velour - {}", self.state.name))
+            .with_inner_size(LogicalSize::new(1280, 720))
+            .with_min_inner_size(LogicalSize::new(480, 320));
+        let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
+        let window = Arc::new(window);
+        let (surface, gpu) = pollster::block_on(open_surface(&window))?;
+        let frame = Frame::new(surface, gpu, window.inner_size().into(), &self.state, &self.table)?;
+        let egui = egui_winit::State::new(
+            egui::Context::default(),
+            ViewportId::ROOT,
+            &window,
+            Some(window.scale_factor() as f32),
+            window.theme(),
+            Some(frame.max_texture_side()),
+        );
+        window.request_redraw();
+        Ok(Open { window, frame, egui, change: Change::Scene })
+    }
+
+    fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
+        let Some(open) = &mut self.open else { return Ok(()) };
+        let start = Instant::now();
+        let input = open.egui.take_egui_input(&open.window);
+        let context = open.egui.egui_ctx().clone();
+        let mut layout = super::layout::Layout::default();
+        let mut output = context.run_ui(input, |ui| layout = super::layout::show(ui, &mut self.state));
+        let platform_output = std::mem::take(&mut output.platform_output);
+        open.egui.handle_platform_output(&open.window, platform_output);
+        open.change = open.change.max(layout.change);
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
+        let presented = open.frame.draw((&context, output), &self.state, layout.picture, open.change)?;
+        if presented == Presented::Yes {
+            if open.change >= Change::Drawn {
+                self.state.frame_time = Some(start.elapsed());
+            }
+            open.change = Change::None;
+        }
+        if layout.screenshot {
+            self.state.message = open.frame.screenshot(&self.state, &self.table);
+            open.window.request_redraw();
+        }
+        if presented == Presented::Again || delay.is_zero() {
+            open.window.request_redraw();
+        } else {
+            let wake = Instant::now().checked_add(delay);
+            event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+        }
+        Ok(())
+    }
+}
+
+/// A surface of the window and a device that presents to it.
+async fn open_surface(window: &Arc<Window>) -> Result<(wgpu::Surface<'static>, device::Gpu), ViewerError> {
+    let mut failure = ViewerError::Device(device::DeviceError::NoAdapter);
+    for backends in device::BACKENDS {
+        let instance = device::instance_for_window(backends, Box::new(Arc::clone(window)));
+        let opened = match instance.create_surface(Arc::clone(window)) {
+            Ok(surface) => device::open(&instance, None, Some(&surface)).await.map(|gpu| (surface, gpu)),
+            Err(_) => continue,
+        };
+        match opened {
+            Ok(opened) => return Ok(opened),
+            Err(error) => failure = ViewerError::Device(error),
+        }
+    }
+    Err(failure)
+}
+
+impl ApplicationHandler for App {
+    fn new_events(&mut self, _event_loop: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(open)) = (cause, &self.open) {
+            open.window.request_redraw();
+        }
+    }
+
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.open.is_some() {
+            return;
+        }
+        match self.open(event_loop) {
+            Ok(open) => self.open = Some(open),
+            Err(failure) => {
+                self.failure = Some(failure);
+                event_loop.exit();
+            }
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
+        let Some(open) = &mut self.open else { return };
+        let response = open.egui.on_window_event(&open.window, &event);
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::RedrawRequested => {
+                if let Err(failure) = self.redraw(event_loop) {
+                    self.failure = Some(failure);
+                    event_loop.exit();
+                }
+            }
+            WindowEvent::Resized(size) => {
+                open.frame.resize(size.into());
+                open.change = open.change.max(Change::Drawn);
+                open.window.request_redraw();
+            }
+            // To RedrawRequested egui always answers that it wants to be repainted: heeding that would never rest.
+            _ if response.repaint => open.window.request_redraw(),
+            _ => {}
+        }
+    }
+}
