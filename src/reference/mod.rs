@@ -1,1 +1,3 @@
-//! (to be written)
+//! The picture in `f64`, by means that share nothing with the shaders.
+
+pub mod polygon;

@@ -1,8 +1,26 @@
 //! The shipped files as text: what a copier relies on before anything runs.
 
 use std::path::Path;
-use wgpu::naga;
+use wgpu::naga::{self, TypeInner};
 
+/// Each file with what its header's example takes for granted.
+const FILES: [(&str, &str); 2] = [
+    (
+        "ltc.wgsl",
+        "fn example(frame: mat3x3<f32>, last: vec3<f32>, vertex: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
+            var outline = ltc_begin(frame * (last - position));
+            var sum = 0.0;",
+    ),
+    (
+        "sheen.wgsl",
+        "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    ),
+];
+
+const HEADER: [&str; 6] =
+    ["// ", "// Copy with it: ", "// Frame: ", "// Example: ", "// Ranges: ", "// Greatest error: "];
+
+/// The text of a file at the top of `shaders/`.
 pub fn source(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders").join(name);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -10,15 +28,103 @@ pub fn source(name: &str) -> String {
 
 fn compile(source: &str) -> Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
-    let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-    validator.validate(&module).map_err(|error| error.emit_to_string(source))?;
+    let (flags, capabilities) = (naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    let validated = naga::valid::Validator::new(flags, capabilities).validate(&module);
+    validated.map_err(|error| error.emit_to_string(source))?;
     Ok(module)
 }
 
-#[test]
-fn each_file_compiles_alone() {
-    for name in ["ltc.wgsl", "sheen.wgsl"] {
-        compile(&source(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+/// What breaks the rules for files that people copy: `stem` is the file's name without its extension.
+fn problems(stem: &str, source: &str) -> Vec<String> {
+    let mut problems = Vec::new();
+    let lines: Vec<&str> = source.lines().collect();
+    if lines.len() > 200 {
+        problems.push(format!("{} lines", lines.len()));
     }
+    let headed = HEADER.iter().zip(&lines).all(|(begin, line)| line.starts_with(begin));
+    if !headed || lines.get(HEADER.len()) != Some(&"") {
+        problems.push("header".to_owned());
+    }
+    // WGSL has no preprocessor; people's own use '#'.
+    if source.contains('#')
+        || ["enable", "requires", "diagnostic"].iter().any(|word| lines.iter().any(|line| line.starts_with(word)))
+    {
+        problems.push("preprocessor or directive".to_owned());
+    }
+    let module = match compile(source) {
+        Ok(module) => module,
+        Err(error) => return vec![error],
+    };
+    if !module.global_variables.is_empty() {
+        problems.push("binding or global".to_owned());
+    }
+    if !module.entry_points.is_empty() {
+        problems.push("entry point".to_owned());
+    }
+    if module.types.iter().any(|(_, kind)| matches!(kind.inner, TypeInner::Array { .. })) {
+        problems.push("array".to_owned());
+    }
+    problems.extend(names(source).filter(|name| !has_stem(name, stem)).map(|name| format!("name {name}")));
+    problems
+}
+
+/// Every name at the top level, where declarations begin their line. (naga forgets constants that have no type of their own.)
+fn names(source: &str) -> impl Iterator<Item = &str> {
+    source.lines().filter_map(|line| {
+        let (keyword, rest) = line.split_once(' ')?;
+        let declares = ["fn", "const", "struct", "alias", "override"].contains(&keyword);
+        declares.then(|| rest.split(|letter: char| !letter.is_alphanumeric() && letter != '_').next())?
+    })
+}
+
+fn has_stem(name: &str, stem: &str) -> bool {
+    let capital = stem[..1].to_uppercase() + &stem[1..];
+    let prefixes = [format!("{stem}_"), format!("{}_", stem.to_uppercase()), capital];
+    prefixes.iter().any(|prefix| name.starts_with(prefix))
+}
+
+#[test]
+fn each_file_compiles_alone_and_is_made_to_be_copied() {
+    for (name, _) in FILES {
+        let stem = name.trim_end_matches(".wgsl");
+        assert_eq!(problems(stem, &source(name)), Vec::<String>::new(), "{name}");
+    }
+}
+
+#[test]
+fn the_examples_in_the_headers_compile() {
+    for (name, given) in FILES {
+        let source = source(name);
+        let examples: Vec<&str> = source.lines().filter_map(|line| line.strip_prefix("// Example: ")).collect();
+        assert_eq!(examples.len(), 1, "{name}");
+        let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);
+        compile(&whole).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let misspelt =
+            whole.replace("let radiance", "let radiance = nobody; let x").replace("= ltc_next(", "= ltc_walk(");
+        assert!(compile(&misspelt).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn a_file_that_breaks_a_rule_is_found_out() {
+    let good =
+        HEADER.map(|begin| format!("{begin}some words\n")).concat() + "\nfn ltc_one() -> f32 {\n    return 1.0;\n}\n";
+    assert_eq!(problems("ltc", &good), Vec::<String>::new());
+    for (addition, problem) in [
+        ("fn other() {}", "name other"),
+        ("struct Other { x: f32 }", "name Other"),
+        ("const OTHER = 1.0;", "name OTHER"),
+        ("const OTHER: f32 = 1.0;", "name OTHER"),
+        ("alias other = f32;", "name other"),
+        ("@group(0) @binding(0) var<storage> ltc_data: vec4<f32>;", "binding or global"),
+        ("var<private> ltc_state: f32;", "binding or global"),
+        ("@compute @workgroup_size(1) fn ltc_main() {}", "entry point"),
+        ("fn ltc_list() { var list: array<f32, 4>; }", "array"),
+        ("// #define LTC", "preprocessor or directive"),
+        (&"\n".repeat(200), "211 lines"),
+    ] {
+        assert_eq!(problems("ltc", &format!("{good}{addition}\n")), [problem], "{addition}");
+    }
+    assert_eq!(problems("ltc", &good.replace("// Ranges", "// Extent")), ["header"]);
+    assert_eq!(problems("ltc", &good.replace("return 1.0", "return 1u")).len(), 1);
 }

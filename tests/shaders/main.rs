@@ -1,3 +1,9 @@
 //! The shader files that people copy.
 
+mod device;
 mod files;
+mod form_factor;
+mod named_cases;
+mod polygons;
+mod sampling;
+mod sheen;

@@ -1,0 +1,154 @@
+//! The polygon integral of the shipped file, run on a device, against the reference's in `f64` that is fed the same `f32`.
+
+use crate::files;
+use crate::polygons::{self, Case, Space, Stand};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Errors in form factor, both lobes of each case.
+struct Errors {
+    greatest: f64,
+    mean: f64,
+}
+
+impl std::fmt::Debug for Errors {
+    fn fmt(&self, out: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(out, "greatest {:.1e}, mean {:.1e}", self.greatest, self.mean)
+    }
+}
+
+impl Errors {
+    fn within(&self, greatest: f64, mean: f64) -> bool {
+        self.greatest <= greatest && self.mean <= mean
+    }
+}
+
+/// The errors of the source `ltc`. What it gives is a number in [0, 1] in any case.
+fn errors(ltc: &str, cases: &[Case]) -> Errors {
+    let mut errors = Errors { greatest: 0.0, mean: 0.0 };
+    for (case, shaded) in cases.iter().zip(polygons::shaded_by(ltc, cases)) {
+        for (exact, shaded) in case.exact().into_iter().zip(shaded) {
+            assert!((0.0..=1.0).contains(&shaded), "{shaded} for {case:?}");
+            let error = (f64::from(shaded) - exact).abs();
+            errors.greatest = errors.greatest.max(error);
+            errors.mean += error / (2 * cases.len()) as f64;
+        }
+    }
+    errors
+}
+
+/// `count` cases of polygons that `draw` gives a stand and a thinness. In the light's plane, to the rounding that the shader
+/// takes for it, there is a test of its own: those are drawn anew.
+fn family(seed: u64, count: usize, space: Space, draw: fn(&mut Pcg64) -> (Stand, f64)) -> Vec<Case> {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut cases = Vec::with_capacity(count);
+    while cases.len() < count {
+        let (stand, thinness) = draw(&mut random);
+        let outline = polygons::outline(&mut random, thinness);
+        let stand = polygons::stand(&mut random, &outline, stand);
+        let size = polygons::log_uniform(&mut random, 1e-3, 1e4);
+        let case = polygons::place(&mut random, &outline, stand, size, space);
+        if case.height() > 6e-7 {
+            cases.push(case);
+        }
+    }
+    cases
+}
+
+/// Near and far, tiny and huge, grazing, over and beside the light, thin; any of it partly below the horizon.
+fn anything(random: &mut Pcg64) -> (Stand, f64) {
+    let thinness = polygons::log_uniform(random, 0.1, 1.0);
+    match random.random_range(0..5) {
+        0 => (Stand::Away(polygons::log_uniform(random, 0.3, 1e3)), thinness),
+        1 => (Stand::Over(polygons::log_uniform(random, 1e-3, 1.0)), thinness),
+        2 => (Stand::Over(polygons::log_uniform(random, 1e-5, 1e-3)), thinness),
+        3 => (Stand::BesideEdge(polygons::log_uniform(random, 3e-3, 1.0)), thinness),
+        _ => (Stand::Away(polygons::log_uniform(random, 0.3, 10.0)), polygons::log_uniform(random, 1e-5, 0.1)),
+    }
+}
+
+#[test]
+fn random_polygons_agree_with_the_exact_form_factor() {
+    let ltc = files::source("ltc.wgsl");
+    let local = errors(&ltc, &family(1, 50_000, Space::Local, anything));
+    let world = errors(&ltc, &family(2, 50_000, Space::World, anything));
+    println!("vertices in the local frame {local:?}, in the world {world:?}");
+    // A handful of roundings of numbers near 1, 6e-8 each.
+    assert!(local.within(1e-6, 5e-8), "{local:?}");
+    // Taking vertices to the local frame rounds them to 1e-7 of their distance, 300 times more of that of a near edge.
+    assert!(world.within(1e-4, 1e-6), "{world:?}");
+}
+
+#[test]
+fn a_hair_from_an_edge_costs_nothing_but_the_rounding_of_the_vertices() {
+    let ltc = files::source("ltc.wgsl");
+    let near: [fn(&mut Pcg64) -> (Stand, f64); 4] = [
+        |random| (Stand::BesideEdge(1e-3), polygons::log_uniform(random, 0.1, 1.0)),
+        |random| (Stand::BesideEdge(1e-4), polygons::log_uniform(random, 0.1, 1.0)),
+        |random| (Stand::BesideEdge(1e-5), polygons::log_uniform(random, 0.1, 1.0)),
+        |random| (Stand::BesideEdge(1e-6), polygons::log_uniform(random, 0.1, 1.0)),
+    ];
+    for (k, draw) in near.into_iter().enumerate() {
+        let distance = 1e-3 / 10_f64.powi(k as i32);
+        let local = errors(&ltc, &family(3, 10_000, Space::Local, draw));
+        let world = errors(&ltc, &family(4, 10_000, Space::World, draw));
+        println!("{distance:e} of its size from an edge: local {local:?}, world {world:?}");
+        // Products of split factors are good to 2^-35 of the product of two distances.
+        assert!(local.within(1e-6 + 1e-11 / distance, 1e-7 + 1e-13 / distance), "{distance:e}: {local:?}");
+        // What the caller rounded before the walk began: some 2^-23 of the size, as an angle seen from that distance.
+        assert!(world.within(2e-7 / distance, 2e-9 / distance), "{distance:e}: {world:?}");
+    }
+}
+
+#[test]
+fn a_hair_above_the_surface_light_of_any_width_is_exact() {
+    let ltc = files::source("ltc.wgsl");
+    let cases = family(5, 20_000, Space::Local, |random| (Stand::Over(polygons::log_uniform(random, 2e-6, 1e-4)), 1.0));
+    let local = errors(&ltc, &cases);
+    println!("2e-6 to 1e-4 of its size over a light: {local:?}");
+    assert!(local.within(1e-6, 5e-8), "{local:?}");
+}
+
+#[test]
+fn several_contours_are_one_polygon() {
+    let mut random = Pcg64::seed_from_u64(6);
+    let mut cases = family(7, 20_000, Space::Local, anything);
+    for case in &mut cases {
+        // A hole, similar to the outline, about its first vertices' middle; a second outline beside it.
+        let outline = case.contours[0].clone();
+        let centre = outline.iter().sum::<glam::Vec3>() / outline.len() as f32;
+        let scale = random.random_range(0.1..0.5);
+        case.contours.push(outline.iter().rev().map(|&vertex| centre.lerp(vertex, scale)).collect());
+        let aside = (outline[0] - centre) * 2.5;
+        case.contours.push(outline.iter().map(|&vertex| vertex + aside).collect());
+    }
+    // The hole's own rounding tilts its plane, where the point is a hair above the light.
+    let errors = errors(&files::source("ltc.wgsl"), &cases);
+    println!("with a hole and an island: {errors:?}");
+    assert!(errors.within(1e-6, 5e-8), "{errors:?}");
+}
+
+#[test]
+fn errors_are_seen_where_clipping_precision_or_a_sign_is_missing() {
+    let shipped = files::source("ltc.wgsl");
+    let broken = |from: &str, to: &str| {
+        assert_eq!(shipped.matches(from).count(), 1, "'{from}' stands once in the file");
+        shipped.replace(from, to)
+    };
+    let cases = family(1, 2_000, Space::Local, anything);
+    assert!(errors(&shipped, &cases).within(1e-6, 5e-8));
+    // No clipping; no way along the horizon; that way once too often in the wrong sense; an angle that is only roughly right.
+    for (from, to) in [
+        ("const LTC_HORIZON = 1e-20;", "const LTC_HORIZON = -1e30;"),
+        ("return sum + sign(turn)", "return sum + 0.0 * sign(turn)"),
+        ("return sum + sign(turn)", "return sum - sign(turn)"),
+        ("0.99999934", "0.9999"),
+    ] {
+        let found = errors(&broken(from, to), &cases);
+        assert!(!found.within(1e-6, 5e-8), "'{to}' goes unnoticed: {found:?}");
+    }
+    // Products that aren't split are seen near an edge.
+    let near = family(3, 2_000, Space::Local, |_| (Stand::BesideEdge(1e-4), 1.0));
+    let found = errors(&broken("+ 0.5 * rest", "+ 0.4 * rest"), &near);
+    assert!(!found.within(1e-6, 1e-7), "{found:?}");
+}

@@ -1,0 +1,35 @@
+// The lobe of the sheen at each point, and what it sends back of a light that covers the whole hemisphere.
+
+struct Result {
+    m_inv: mat3x3<f32>,
+    albedo: f32,
+    base_weight: f32,
+    lit: f32,
+}
+
+@group(0) @binding(0) var<storage, read_write> results: array<Result>;
+@group(0) @binding(1) var<storage, read> points: array<vec2<f32>>;
+@group(0) @binding(2) var table: texture_2d<f32>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&results) {
+        return;
+    }
+    let lobe = sheen_lobe(table, points[id.x].x, points[id.x].y);
+    // A ceiling, 100 kilometres to each side at a metre's height.
+    let corner = vec3(1e5, 1e5, 1.0);
+    let side = ltc_side(vec3(0.0, 0.0, -1.0), corner, false);
+    var outline = ltc_begin(corner * vec3(-1.0, 1.0, 1.0));
+    var sum = 0.0;
+    outline = ltc_next(outline, corner);
+    sum += ltc_edge(outline, lobe.m_inv);
+    outline = ltc_next(outline, corner * vec3(1.0, -1.0, 1.0));
+    sum += ltc_edge(outline, lobe.m_inv);
+    outline = ltc_next(outline, corner * vec3(-1.0, -1.0, 1.0));
+    sum += ltc_edge(outline, lobe.m_inv);
+    outline = ltc_next(outline, corner * vec3(-1.0, 1.0, 1.0));
+    sum += ltc_edge(outline, lobe.m_inv);
+    let lit = lobe.albedo * ltc_form_factor(sum, side);
+    results[id.x] = Result(lobe.m_inv, lobe.albedo, sheen_base_weight(vec3(0.2, 0.5, 0.3), lobe.albedo), lit);
+}
