@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Outcome {
     let mut outcome = Outcome::default();
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
-        ui.heading(&state.name);
+        ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
         ui.separator();
         let change = sheen(ui, state).max(picture(ui, state)).max(lights(ui, state));
         outcome.change = change;
@@ -59,7 +59,8 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
         ui.label("fuzz");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.label("dust");
-            let value_width = 48.0;
+            // Its box, and room at the panel's edge.
+            let value_width = 56.0;
             ui.spacing_mut().slider_width = ui.available_width() - value_width;
             ui.add(egui::Slider::new(&mut sheen.roughness, 0.0..=1.0).fixed_decimals(2));
         });

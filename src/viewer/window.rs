@@ -30,8 +30,17 @@ struct Open {
     window: Arc<Window>,
     frame: Frame,
     egui: egui_winit::State,
-    /// What has changed since the last frame.
+    /// What the passes over the user interface since the last frame have found.
+    pending: Pending,
+}
+
+/// Passes over the user interface may come more often than frames: see `App::window_event`.
+#[derive(Default)]
+struct Pending {
+    output: egui::FullOutput,
     change: Change,
+    screenshot: bool,
+    picture: Option<egui::Rect>,
 }
 
 impl App {
@@ -57,32 +66,42 @@ impl App {
             Some(frame.max_texture_side()),
         );
         window.request_redraw();
-        Ok(Open { window, frame, egui, change: Change::Scene })
+        Ok(Open { window, frame, egui, pending: Pending { change: Change::Scene, ..Default::default() } })
+    }
+
+    /// Lets egui see the events so far and takes over what the user did.
+    fn pass(&mut self) {
+        let Some(open) = &mut self.open else { return };
+        let input = open.egui.take_egui_input(&open.window);
+        let context = open.egui.egui_ctx().clone();
+        let mut layout = None;
+        let mut output = context.run_ui(input, |ui| layout = Some(super::layout::show(ui, &mut self.state)));
+        open.egui.handle_platform_output(&open.window, std::mem::take(&mut output.platform_output));
+        open.pending.output.append(output);
+        if let Some(layout) = layout {
+            open.pending.change = open.pending.change.max(layout.change);
+            open.pending.screenshot |= layout.screenshot;
+            open.pending.picture = Some(layout.picture);
+        }
     }
 
     fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
-        let Some(open) = &mut self.open else { return Ok(()) };
         let start = Instant::now();
-        let input = open.egui.take_egui_input(&open.window);
-        let context = open.egui.egui_ctx().clone();
-        let mut layout = super::layout::Layout::default();
-        let mut output = context.run_ui(input, |ui| layout = super::layout::show(ui, &mut self.state));
-        let platform_output = std::mem::take(&mut output.platform_output);
-        open.egui.handle_platform_output(&open.window, platform_output);
-        open.change = open.change.max(layout.change);
+        self.pass();
+        let Some(open) = &mut self.open else { return Ok(()) };
+        let Pending { output, change, screenshot, picture } = std::mem::take(&mut open.pending);
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
-        let presented = open.frame.draw((&context, output), &self.state, layout.picture, open.change)?;
-        if presented == Presented::Yes {
-            if open.change >= Change::Drawn {
-                self.state.frame_time = Some(start.elapsed());
-            }
-            open.change = Change::None;
+        let place = picture.unwrap_or(egui::Rect::ZERO);
+        let presented = open.frame.draw((open.egui.egui_ctx(), output), &self.state, place, change)?;
+        if presented != Presented::Yes {
+            open.pending.change = change;
+        } else if change >= Change::Drawn {
+            self.state.frame_time = Some(start.elapsed());
         }
-        if layout.screenshot {
+        if screenshot {
             self.state.message = open.frame.screenshot(&self.state, &self.table);
-            open.window.request_redraw();
         }
-        if presented == Presented::Again || delay.is_zero() {
+        if presented == Presented::Again || delay.is_zero() || screenshot {
             open.window.request_redraw();
         } else {
             let wake = Instant::now().checked_add(delay);
@@ -130,8 +149,18 @@ impl ApplicationHandler for App {
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
+        // Of what happens between two passes egui sees the result. On a slow driver that may be a whole drag, so each
+        // press and release gets a pass of its own.
+        let button = matches!(event, WindowEvent::MouseInput { .. });
+        if button {
+            self.pass();
+        }
         let Some(open) = &mut self.open else { return };
         let response = open.egui.on_window_event(&open.window, &event);
+        if button {
+            self.pass();
+        }
+        let Some(open) = &mut self.open else { return };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::RedrawRequested => {
@@ -142,7 +171,7 @@ impl ApplicationHandler for App {
             }
             WindowEvent::Resized(size) => {
                 open.frame.resize(size.into());
-                open.change = open.change.max(Change::Drawn);
+                open.pending.change = open.pending.change.max(Change::Drawn);
                 open.window.request_redraw();
             }
             // To RedrawRequested egui always answers that it wants to be repainted: heeding that would never rest.
