@@ -106,6 +106,9 @@ fn ltc_edge(outline: LtcOutline, m_inv: mat3x3<f32>) -> f32 {
     let leave = x * outline.leave.x + y * outline.leave.y;
     let enter = x * outline.enter.x + y * outline.enter.y;
     let turn = enter.x * leave.y - enter.y * leave.x;
+    if turn == 0.0 {
+        return sum;
+    }
     return sum + sign(turn) * ltc_angle(abs(turn), dot(leave, enter));
 }
 

@@ -46,7 +46,7 @@ pub struct Fit {
     #[arg(short, long, default_value = "tables", value_name = "DIR")]
     pub output: PathBuf,
     /// Nodes along alpha and along mu
-    #[arg(long, default_value_t = 32, value_name = "N", value_parser = clap::value_parser!(u16).range(4..=256))]
+    #[arg(long, default_value_t = 32, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=128))]
     pub resolution: u16,
 }
 

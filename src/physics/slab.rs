@@ -1,7 +1,9 @@
 //! The layer: 0 <= z <= 1 of fibres along its normal z, with what is known of it in closed form.
 
 use super::sggx::Sggx;
+use crate::math::quadrature::gauss_legendre;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// The slab of fibres of one roughness.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +48,34 @@ impl Slab {
         let rate = self.medium.extinction(mu_i) * mu_o + self.medium.extinction(mu_o) * mu_i;
         self.medium.kernel(wi, wo) * attenuated * mu_o / rate
     }
+
+    /// Single scattering's part of the albedo R at cosine `mu` in \[0, 1\]: the integral of [`Self::single_scattering`] over the
+    /// upper hemisphere, to a relative 1e-5.
+    pub fn single_scattering_albedo(&self, mu: f64) -> f64 {
+        let wi = DVec3::new(sine(mu), 0.0, mu);
+        // Both variables are warped to where a narrow feature may lie: mu_o = t^3 to the horizon, phi = pi (1 - u^2) to the
+        // direction straight on, around which the flakes that would be needed are rare.
+        let inner = gauss_legendre(SINGLE_NODES, 0.0, 1.0);
+        let mut sum = 0.0;
+        for &(t, t_weight) in &inner {
+            let mu_o = t * t * t;
+            for &(u, u_weight) in &inner {
+                let (sin_phi, cos_phi) = (PI * (1.0 - u * u)).sin_cos();
+                let wo = DVec3::new(sine(mu_o) * cos_phi, sine(mu_o) * sin_phi, mu_o);
+                let measure = 3.0 * t * t * t_weight * 2.0 * (2.0 * PI * u * u_weight);
+                sum += measure * self.single_scattering(wi, wo);
+            }
+        }
+        sum
+    }
+}
+
+/// Gauss nodes a side of [`Slab::single_scattering_albedo`].
+const SINGLE_NODES: usize = 64;
+
+/// sqrt(1 - mu^2) without cancellation.
+fn sine(mu: f64) -> f64 {
+    ((1.0 - mu) * (1.0 + mu)).sqrt()
 }
 
 /// The fibres' cross-section sigma of the paper's roughness alpha.

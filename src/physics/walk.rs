@@ -95,9 +95,9 @@ impl Default for Histogram {
 
 impl Histogram {
     /// Bins of sqrt(mu_o), of equal width: fine at the horizon, where lobes of small alpha lie.
-    pub const MU_BINS: usize = 48;
+    pub const MU_BINS: usize = 64;
     /// Bins of |phi| in \[0, pi\], of equal width.
-    pub const PHI_BINS: usize = 24;
+    pub const PHI_BINS: usize = 32;
 
     /// Counts, the cosine's bin by the azimuth's.
     pub fn bins(&self) -> impl Iterator<Item = &[u64]> {

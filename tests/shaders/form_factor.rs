@@ -5,6 +5,9 @@ use crate::polygons::{self, Case, Space, Stand};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
+/// Draws where the point stands and how thin the light is.
+type Draw = fn(&mut Pcg64) -> (Stand, f64);
+
 /// Errors in form factor, both lobes of each case.
 struct Errors {
     greatest: f64,
@@ -39,7 +42,7 @@ fn errors(ltc: &str, cases: &[Case]) -> Errors {
 
 /// `count` cases of polygons that `draw` gives a stand and a thinness. In the light's plane, to the rounding that the shader
 /// takes for it, there is a test of its own: those are drawn anew.
-fn family(seed: u64, count: usize, space: Space, draw: fn(&mut Pcg64) -> (Stand, f64)) -> Vec<Case> {
+fn family(seed: u64, count: usize, space: Space, draw: Draw) -> Vec<Case> {
     let mut random = Pcg64::seed_from_u64(seed);
     let mut cases = Vec::with_capacity(count);
     while cases.len() < count {
@@ -82,7 +85,7 @@ fn random_polygons_agree_with_the_exact_form_factor() {
 #[test]
 fn a_hair_from_an_edge_costs_nothing_but_the_rounding_of_the_vertices() {
     let ltc = files::source("ltc.wgsl");
-    let near: [fn(&mut Pcg64) -> (Stand, f64); 4] = [
+    let near: [Draw; 4] = [
         |random| (Stand::BesideEdge(1e-3), polygons::log_uniform(random, 0.1, 1.0)),
         |random| (Stand::BesideEdge(1e-4), polygons::log_uniform(random, 0.1, 1.0)),
         |random| (Stand::BesideEdge(1e-5), polygons::log_uniform(random, 0.1, 1.0)),
