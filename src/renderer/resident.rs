@@ -238,8 +238,8 @@ mod tests {
 
     #[test]
     fn structs_stand_as_the_shader_reads_them() {
-        let instance = members!(GpuInstance { world_from_mesh, normal_from_mesh, material });
-        let material = members!(GpuMaterial { base_color, alpha, sheen_color, emission });
+        let instance = members!(GpuInstance { world_from_mesh, normal_from_mesh, emission, material });
+        let material = members!(GpuMaterial { base_color, alpha, sheen_color });
         let polygon = members!(GpuPolygon { radiance, two_sided, normal, first_vertex, end_vertex });
         for (name, size, members) in [
             ("SurfacesInstance", size_of::<GpuInstance>(), &instance[..]),
