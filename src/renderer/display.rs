@@ -7,6 +7,9 @@ use super::targets::{RadianceFormat, Targets};
 use super::view::Rect;
 use crate::picture::ToneCurve;
 
+/// The pass' WGSL.
+const DISPLAY_WGSL: &str = include_str!("../../shaders/passes/display.wgsl");
+
 /// What becomes of the radiance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Showing {
@@ -16,6 +19,7 @@ pub enum Showing {
     Measured,
 }
 
+/// `DisplayUniforms` of `display.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
@@ -37,7 +41,7 @@ impl DisplayPass {
     pub fn new(device: &Device, radiance: RadianceFormat, output: TextureFormat, measured: bool) -> Self {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("display"),
-            source: wgpu::ShaderSource::Wgsl(include_str!("../../shaders/passes/display.wgsl").into()),
+            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
         });
         let multisampled = radiance.samples > 1;
         let entry_point = match (measured, multisampled) {
@@ -154,4 +158,16 @@ fn pipeline(
         multiview_mask: None,
         cache: None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::*;
+
+    #[test]
+    fn the_uniforms_stand_as_the_shader_reads_them() {
+        let members = members!(Uniforms { gain, tone_curve, origin });
+        assert_eq!(differences(DISPLAY_WGSL, "DisplayUniforms", size_of::<Uniforms>(), members), [""; 0]);
+    }
 }

@@ -5,6 +5,8 @@
 
 pub mod device;
 mod display;
+#[cfg(test)]
+mod layout;
 mod offscreen;
 mod resident;
 mod surfaces;

@@ -231,8 +231,24 @@ fn buffer(
 
 #[cfg(test)]
 mod tests {
+    use super::super::layout::{differences, members};
+    use super::super::surfaces::SURFACES_WGSL;
     use super::*;
     use glam::{DMat4, DVec3};
+
+    #[test]
+    fn structs_stand_as_the_shader_reads_them() {
+        let instance = members!(GpuInstance { world_from_mesh, normal_from_mesh, emission, material });
+        let material = members!(GpuMaterial { base_color, alpha, sheen_color });
+        let polygon = members!(GpuPolygon { radiance, two_sided, normal, first_vertex, end_vertex });
+        for (name, size, members) in [
+            ("SurfacesInstance", size_of::<GpuInstance>(), &instance[..]),
+            ("SurfacesMaterial", size_of::<GpuMaterial>(), material),
+            ("SurfacesPolygon", size_of::<GpuPolygon>(), polygon),
+        ] {
+            assert_eq!(differences(SURFACES_WGSL, name, size, members), [""; 0]);
+        }
+    }
 
     #[test]
     fn normals_stay_perpendicular_and_outside_under_any_transform() {

@@ -229,3 +229,15 @@ fn pipeline(
         cache: None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::*;
+
+    #[test]
+    fn the_frame_stands_as_the_shader_reads_it() {
+        let members = members!(Frame { clip_from_world, eye, lobes, polygon_count });
+        assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
+    }
+}

@@ -89,7 +89,7 @@ fn tile_from_clip([width, height]: [f64; 2], tile: Rect) -> DMat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec3, Vec3Swizzles};
+    use glam::{Vec3, Vec4Swizzles};
 
     fn camera(projection: Projection) -> Camera {
         let turned = Mat4::from_rotation_translation(glam::Quat::from_rotation_y(0.3), Vec3::new(1.0, 2.0, 3.0));

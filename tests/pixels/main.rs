@@ -1,1 +1,10 @@
+//! Pictures, made as users make them: by the whole pipeline on a device, and by the binary.
 
+mod bad_input;
+mod command;
+mod compare;
+mod radiance;
+mod run;
+mod shown;
+mod stage;
+mod truth;

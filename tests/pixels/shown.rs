@@ -1,0 +1,93 @@
+//! From radiance to pictures that are looked at, and pictures of all shapes.
+
+use velour::picture::{DisplayImage, ToneCurve};
+use velour::renderer::Offscreen;
+use velour::scene::{Scene, Settings};
+use velour::table::LtcTable;
+
+use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
+use super::stage::{Stage, Thing, facing, glow, looking, velvet};
+use super::truth::Truth;
+
+/// A velvet floor and a bright light that is seen. Both lie within the picture: drivers cut what leaves it into more
+/// triangles, along whose edges four samples are shaded in two places.
+fn stage() -> Stage {
+    let floor = Thing::rectangle([1.5, 1.5], velvet([0.9, 0.5, 0.2], 0.4)).placed(facing([0.0; 3], [0.0, 1.0, 0.0]));
+    let light = Thing::rectangle([0.5, 0.3], glow([4.0, 3.0, 0.2])).placed(facing([0.7, 0.9, -0.8], [0.0, 0.3, 0.4]));
+    Stage::new(vec![floor, light], looking([0.4, 1.9, 4.6], [0.1, 0.1, 0.0]))
+}
+
+fn shown(scene: &Scene, samples: u32, settings: &Settings, tone: ToneCurve, size: [u32; 2]) -> DisplayImage {
+    let mut renderer = Offscreen::for_display(&GPU, samples, &LtcTable::embedded(), scene, settings).unwrap();
+    GPU.block_on(renderer.display(&GPU, &scene.cameras[0], size, settings, tone)).unwrap()
+}
+
+/// The greatest difference of two pictures' channels, of 255.
+fn greatest(left: &DisplayImage, right: &DisplayImage) -> u8 {
+    assert_eq!([left.width, left.height], [right.width, right.height]);
+    let channels = left.pixels.as_flattened().iter().zip(right.pixels.as_flattened());
+    channels.map(|(left, right)| left.abs_diff(*right)).max().unwrap()
+}
+
+#[test]
+fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
+    let scene = stage().scene();
+    let radiance = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+    for tone in [ToneCurve::None, ToneCurve::Neutral] {
+        for exposure in [-2.0, 0.0, 1.3, 6.0] {
+            let settings = Settings { exposure, ..Settings::default() };
+            let picture = shown(&scene, 1, &settings, tone, SIZE);
+            // Radiance is kept in 11 bits on its way: a twentieth of a step, which may tip the rounding to 8 bits.
+            assert!(greatest(&picture, &radiance.display(exposure, tone)) <= 1, "{tone:?} {exposure}");
+            assert!(greatest(&picture, &radiance.display(exposure + 0.1, tone)) > 1, "{tone:?} {exposure}");
+        }
+    }
+}
+
+#[test]
+fn four_samples_smooth_the_edges_alone() {
+    let (stage, settings, table) = (stage(), Settings::default(), LtcTable::embedded());
+    let scene = stage.scene();
+    let single = linear(&scene, &table, &settings, SIZE);
+    let mut renderer = Offscreen::for_linear(&GPU, 4, &table, &scene, &settings).unwrap();
+    let smooth = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap();
+    let truth = Truth::new(&stage, &table, &settings, SIZE);
+    let mut mixed = 0;
+    for (index, (single, smooth)) in single.pixels.iter().zip(&smooth.pixels).enumerate() {
+        let [x, y] = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(f64::from);
+        // A sixteenth beyond the pixel: where corners may move to.
+        let corners = [[-0.06, -0.06], [1.06, -0.06], [-0.06, 1.06], [1.06, 1.06], [0.5, 0.5]];
+        let seen = corners.map(|[right, down]| truth.at([x + right, y + down]).map(|hit| (hit.thing, hit.triangle)));
+        let close = |(left, right): (&f32, &f32)| (left - right).abs() <= 5e-4 * left.abs();
+        let equal = single.iter().zip(smooth).all(close);
+        if seen.iter().all(|triangle| *triangle == seen[4]) {
+            // 5e-4: the 11 bits of half floats, where a device has no 32-bit ones of four samples.
+            assert!(equal, "{x} {y}: {single:?} {smooth:?}");
+        }
+        mixed += usize::from(!equal);
+    }
+    // The light's outline alone crosses some 60 pixels.
+    assert!(mixed > 40, "{mixed} pixels are mixed");
+}
+
+#[test]
+fn pictures_past_a_tile_show_no_seam() {
+    let (stage, settings, table) = (stage(), sheen_alone(), LtcTable::embedded());
+    for size in [[2100, 30], [20, 2060]] {
+        let picture = linear(&stage.scene(), &table, &settings, size);
+        differences(&picture, &Truth::new(&stage, &table, &settings, size)).unwrap();
+        let smooth = shown(&stage.scene(), 1, &settings, ToneCurve::Neutral, size);
+        assert!(greatest(&smooth, &picture.display(0.0, ToneCurve::Neutral)) <= 1);
+    }
+}
+
+#[test]
+fn the_same_picture_comes_out_every_time() {
+    let (scene, table) = (stage().scene(), LtcTable::embedded());
+    let settings = Settings::default();
+    let bits = |_| linear(&scene, &table, &settings, SIZE).pixels.concat().into_iter().map(f32::to_bits).collect();
+    let [first, second]: [Vec<u32>; 2] = [0, 1].map(bits);
+    assert_eq!(first, second);
+    let [first, second] = [0, 1].map(|_| shown(&scene, 4, &settings, ToneCurve::Neutral, SIZE));
+    assert_eq!(first, second);
+}
