@@ -25,9 +25,8 @@ pub(super) fn add_camera(scene: &mut Scene, notices: &mut Notices) {
     let right = Vec3::Y.cross(back).normalize();
     let axes = Mat3::from_cols(right, back.cross(right), back);
     let world_from_camera = Mat4::from_translation(eye) * Mat4::from_mat3(axes);
-    // Lights may stand before the subject and behind it.
-    let farthest = scene.bounds().corners().map(|corner| corner.distance(eye)).into_iter().fold(distance, f32::max);
-    let projection = Projection::Perspective { yfov: YFOV, near: 0.01 * distance, far: 1.1 * farthest + radius };
+    // Lights may stand before the subject, and anywhere behind it.
+    let projection = Projection::Perspective { yfov: YFOV, near: 0.01 * distance, far: f32::INFINITY };
     scene.cameras.push(Camera { name: "framing".to_owned(), world_from_camera, projection });
     notices.add("no camera in the file", || "the whole scene is framed".to_owned());
 }

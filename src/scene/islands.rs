@@ -242,6 +242,9 @@ impl Placed<'_> {
     fn polygon(&self, island: &[u32]) -> Option<Polygon> {
         let triangles = island.iter().map(|&triangle| self.triangles[triangle as usize]);
         let normal = self.normal(island);
+        if normal == DVec3::ZERO {
+            return None;
+        }
         let contours = outline(triangles, &self.positions, normal);
         (!contours.is_empty()).then(|| Polygon { contours, normal: normal.as_vec3() })
     }
@@ -267,3 +270,6 @@ impl Extent {
         self.min.distance(self.max)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,7 @@
 use glam::{Mat3, Mat4, Vec3};
 
 use super::notices::Notices;
-use super::{Instance, Material, Mesh, Scene, framing, lights};
+use super::{Camera, Instance, Material, Mesh, Projection, Scene, framing};
 
 /// Radiance of a white diffuse surface that faces the key light.
 const KEY_LEVEL: f32 = 0.7;
@@ -29,10 +29,14 @@ const PANELS: [Panel; 3] = [
     Panel { name: "rim", direction: Vec3::new(0.35, 0.85, -0.45), half_size: [1.2, 0.4], level: RIM_LEVEL },
 ];
 
-/// Adds the rig around what the first camera shows, where nothing in the scene glows.
+const CORNERS: [Vec3; 4] =
+    [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(1.0, 1.0, 0.0), Vec3::new(-1.0, 1.0, 0.0)];
+
+/// Adds the rig around what the first camera shows, where nothing in the scene glows. A rim light that this camera would
+/// see is left out.
 pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
     let glows = |instance: &Instance| scene.materials[scene.meshes[instance.mesh].material].emission != Vec3::ZERO;
-    let (false, Some(camera)) = (scene.instances.iter().any(glows), scene.cameras.first()) else { return };
+    let (false, Some(camera)) = (scene.instances.iter().any(glows), scene.cameras.first().cloned()) else { return };
     let world_from_camera = Mat3::from_mat4(camera.world_from_camera);
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
@@ -43,10 +47,24 @@ pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
         let axes = Mat3::from_cols(right * panel.half_size[0], back.cross(right) * panel.half_size[1], back);
         let world_from_mesh =
             Mat4::from_translation(center - DISTANCE * radius * back) * Mat4::from_mat3(axes * radius);
-        add_panel(scene, panel, world_from_mesh);
+        if panel.direction.z > 0.0 || !sees(&camera, world_from_mesh) {
+            add_panel(scene, panel, world_from_mesh);
+        }
     }
-    lights::add_lights(scene, notices);
     notices.add("no light in the file", || "key, fill and rim lights are added".to_owned());
+}
+
+/// Whether a picture up to twice as wide as high may show a corner of a panel.
+fn sees(camera: &Camera, world_from_mesh: Mat4) -> bool {
+    let camera_from_mesh = camera.world_from_camera.inverse() * world_from_mesh;
+    CORNERS.iter().any(|&corner| {
+        let corner = camera_from_mesh.transform_point3(corner);
+        let half_height = match camera.projection {
+            Projection::Perspective { yfov, .. } => -corner.z * (0.5 * yfov).tan(),
+            Projection::Orthographic { ymag, .. } => ymag,
+        };
+        corner.z < 0.0 && corner.y.abs() < half_height && corner.x.abs() < 2.0 * half_height
+    })
 }
 
 fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
@@ -55,10 +73,9 @@ fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
     let form_factor = 4.0 * panel.half_size[0] * panel.half_size[1] / (std::f32::consts::PI * DISTANCE * DISTANCE);
     let emission = Vec3::splat(panel.level / form_factor);
     scene.materials.push(Material { name: name(), base_color: Vec3::ZERO, sheen: None, emission, double_sided: false });
-    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     scene.meshes.push(Mesh {
         name: name(),
-        positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+        positions: CORNERS.to_vec(),
         normals: vec![Vec3::Z; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
         material: scene.materials.len() - 1,
