@@ -8,10 +8,10 @@ use gltf::json::Root;
 use super::accessor::Accessors;
 use super::nodes::{Placed, node_label};
 use super::primitives::Reader;
-use super::{Fault, cut, materials};
+use super::{Fault, cut};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Bounds, Instance, Scene};
+use crate::scene::{Bounds, Instance, Material, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
@@ -92,7 +92,7 @@ impl<'a> Assembly<'a> {
 
     fn default_material(&mut self) -> usize {
         *self.default_material.get_or_insert_with(|| {
-            self.scene.materials.push(materials::default_material());
+            self.scene.materials.push(Material { name: "default".to_owned(), ..Material::default() });
             self.scene.materials.len() - 1
         })
     }
@@ -105,11 +105,10 @@ pub fn check_reach(world_from_node: DAffine3, extent: Vec3) -> Result<(), String
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::abs);
     let extent = extent.as_dvec3();
     let reach = x * extent.x + y * extent.y + z * extent.z + world_from_node.translation.abs();
-    let greatest = (reach.to_array().into_iter().chain(x.to_array()).chain(y.to_array()).chain(z.to_array()))
-        .fold(0.0, |greatest: f64, value| if value <= greatest { greatest } else { value });
-    match greatest <= REACH {
-        true => Ok(()),
-        false => Err(format!("reaches {greatest:e} m in the world; bring it within {REACH:e} m of the origin")),
+    let values = [reach, x, y, z].into_iter().flat_map(|vector| vector.to_array());
+    match values.into_iter().find(|value| value.is_nan() || *value > REACH) {
+        None => Ok(()),
+        Some(value) => Err(format!("reaches {value:e} m in the world; bring it within {REACH:e} m of the origin")),
     }
 }
 

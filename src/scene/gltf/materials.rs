@@ -30,12 +30,6 @@ pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> 
     Ok(materials)
 }
 
-/// What a primitive without a material is made of, by glTF.
-pub fn default_material() -> Material {
-    let name = "default".to_owned();
-    Material { name, base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
-}
-
 fn read_one(material: &json::Material) -> Result<Material, String> {
     let pbr = &material.pbr_metallic_roughness;
     let base_color = in_unit("baseColorFactor", pbr.base_color_factor.0)?;
