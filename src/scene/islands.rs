@@ -79,29 +79,60 @@ impl Topology {
 
 /// For each vertex the first one at its place, to `tolerance`.
 fn weld(positions: &[Vec3], tolerance: f64) -> Vec<u32> {
-    let origin = Bounds::of_points(positions).min.as_dvec3();
-    // Twice as wide as the tolerance: whatever is near a point lies in one of eight cells.
-    let width = (2.0 * tolerance).max(f64::MIN_POSITIVE);
-    let cell = |point: DVec3| ((point - origin) / width).floor().to_array().map(|index| index as i64);
-    let mut same = HashMap::with_capacity(positions.len());
-    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    let mut find_or_insert = |index: usize| {
-        let point = positions[index].as_dvec3();
-        let near = (0..8).find_map(|corner| {
-            let offset = |axis: i32| if corner >> axis & 1 == 0 { -tolerance } else { tolerance };
-            let others = cells.get(&cell(point + DVec3::new(offset(0), offset(1), offset(2))))?;
-            let is_near = |&&other: &&u32| positions[other as usize].as_dvec3().distance(point) <= tolerance;
-            others.iter().find(is_near).copied()
-        });
-        near.unwrap_or_else(|| {
-            cells.entry(cell(point)).or_default().push(index as u32);
-            index as u32
-        })
-    };
+    let mut cells = Cells::new(positions, tolerance);
     // Most vertices that meet are equal to the bit: these need no search. Adding zero makes -0 and 0 one.
     let key = |position: &Vec3| (*position + Vec3::ZERO).to_array().map(f32::to_bits);
-    let welded = positions.iter().enumerate();
-    welded.map(|(index, position)| *same.entry(key(position)).or_insert_with(|| find_or_insert(index))).collect()
+    let mut same = HashMap::with_capacity(positions.len());
+    let first = |(index, position)| *same.entry(key(position)).or_insert_with(|| cells.find_or_insert(index as u32));
+    positions.iter().enumerate().map(first).collect()
+}
+
+/// Vertices in cells of space, further apart than the tolerance.
+struct Cells<'a> {
+    positions: &'a [Vec3],
+    tolerance: f64,
+    origin: DVec3,
+    /// The last vertex put into each cell, and for each vertex the one before it.
+    last: HashMap<[u32; 3], u32>,
+    previous: Vec<Option<u32>>,
+}
+
+impl<'a> Cells<'a> {
+    /// In tolerances: wide enough for most vertices to be near one cell only, narrow enough to hold few.
+    const WIDTH: f64 = 8.0;
+
+    fn new(positions: &'a [Vec3], tolerance: f64) -> Self {
+        let origin = Bounds::of_points(positions).min.as_dvec3();
+        Self { positions, tolerance, origin, last: HashMap::new(), previous: vec![None; positions.len()] }
+    }
+
+    /// A vertex within the tolerance of this one, or itself, put into its cell.
+    fn find_or_insert(&mut self, index: u32) -> u32 {
+        let point = self.positions[index as usize].as_dvec3();
+        let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
+        for corner in 0..8 {
+            let is_high = [corner & 1 != 0, corner & 2 != 0, corner & 4 != 0];
+            if (0..3).any(|axis| is_high[axis] && low[axis] == high[axis]) {
+                continue;
+            }
+            let cell = [0, 1, 2].map(|axis| if is_high[axis] { high[axis] } else { low[axis] });
+            let mut other = self.last.get(&cell).copied();
+            while let Some(vertex) = other {
+                if self.positions[vertex as usize].as_dvec3().distance(point) <= self.tolerance {
+                    return vertex;
+                }
+                other = self.previous[vertex as usize];
+            }
+        }
+        self.previous[index as usize] = self.last.insert(self.cell(point), index);
+        index
+    }
+
+    /// The counts fit: the tolerance is a millionth of the whole.
+    fn cell(&self, point: DVec3) -> [u32; 3] {
+        let width = (Self::WIDTH * self.tolerance).max(f64::MIN_POSITIVE);
+        ((point - self.origin) / width).to_array().map(|index| index as u32)
+    }
 }
 
 /// Neighbours of triangles, as `Topology` holds them.
@@ -242,6 +273,9 @@ impl Placed<'_> {
     fn polygon(&self, island: &[u32]) -> Option<Polygon> {
         let triangles = island.iter().map(|&triangle| self.triangles[triangle as usize]);
         let normal = self.normal(island);
+        if normal == DVec3::ZERO {
+            return None;
+        }
         let contours = outline(triangles, &self.positions, normal);
         (!contours.is_empty()).then(|| Polygon { contours, normal: normal.as_vec3() })
     }
@@ -267,3 +301,6 @@ impl Extent {
         self.min.distance(self.max)
     }
 }
+
+#[cfg(test)]
+mod tests;

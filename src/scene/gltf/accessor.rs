@@ -7,13 +7,13 @@ use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{self, Root};
 
-use super::{Fault, buffers};
+use super::Fault;
 use crate::scene::error::label;
 
-/// The accessors of a file with what they read.
+/// The accessors of a file with what they read: known to lie within their views, and these within their buffers.
 pub struct Accessors<'a> {
     pub root: &'a Root,
-    pub buffers: &'a [Rc<[u8]>],
+    buffers: &'a [Rc<[u8]>],
 }
 
 /// The layout of an accessor's elements within its view, in bytes.
@@ -40,12 +40,19 @@ impl<'a> Elements<'a> {
 
 impl<'a> Accessors<'a> {
     /// Checks the layout of every accessor, read or not, against its view, and every view against its buffer.
-    pub fn check(&self) -> Result<(), Fault> {
+    /// `buffers` are as long as the root's say.
+    pub fn new(root: &'a Root, buffers: &'a [Rc<[u8]>]) -> Result<Self, Fault> {
+        let accessors = Self { root, buffers };
+        accessors.check_views()?;
+        (0..root.accessors.len()).try_for_each(|index| accessors.layout(index).map(|_| ()))?;
+        Ok(accessors)
+    }
+
+    fn check_views(&self) -> Result<(), Fault> {
         for (index, view) in self.root.buffer_views.iter().enumerate() {
             let place = || label("bufferView", index, view.name.as_deref());
             let wrong = |what: String| Fault::at(place(), format_args!("{what}; export the file again"));
-            let buffer = self.root.buffers.get(view.buffer.value());
-            let length = buffer.ok_or_else(|| wrong(format!("there is no buffer {}", view.buffer)))?.byte_length.0;
+            let length = self.root.buffers[view.buffer.value()].byte_length.0;
             let (offset, bytes) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
             if bytes == 0 || offset.checked_add(bytes).is_none_or(|end| end > length) {
                 let what = format!("{bytes} bytes from {offset} do not lie in buffer {}'s {length}", view.buffer);
@@ -57,7 +64,7 @@ impl<'a> Accessors<'a> {
                 return Err(wrong(format!("byteStride {stride} is no multiple of 4 from 4 to 252")));
             }
         }
-        (0..self.root.accessors.len()).try_for_each(|index| self.layout(index).map(|_| ()))
+        Ok(())
     }
 
     /// The positions, or other triples of finite floats, of an accessor: those `used`, or all.
@@ -91,13 +98,8 @@ impl<'a> Accessors<'a> {
         Ok(self.elements(index)?.count)
     }
 
-    fn get(&self, index: usize) -> Result<&'a json::Accessor, Fault> {
-        let missing = || Fault::new(format_args!("there is no accessor {index}; export the file again"));
-        self.root.accessors.get(index).ok_or_else(missing)
-    }
-
     fn expect(&self, index: usize, components: &[ComponentType], kind: Type) -> Result<&'a json::Accessor, Fault> {
-        let accessor = self.get(index)?;
+        let accessor = &self.root.accessors[index];
         let Valid(component) = accessor.component_type else { return Err(self.unknown_type(index)) };
         if accessor.type_ == Valid(kind) && components.contains(&component.0) {
             return Ok(accessor);
@@ -109,18 +111,26 @@ impl<'a> Accessors<'a> {
     }
 
     fn unknown_type(&self, index: usize) -> Fault {
-        let name = self.root.accessors.get(index).and_then(|accessor| accessor.name.as_deref());
+        let name = self.root.accessors[index].name.as_deref();
         Fault::at(label("accessor", index, name), "its type or componentType is none of glTF's; export the file again")
+    }
+
+    /// The bytes of a view, which lie in its buffer.
+    fn view(&self, index: usize) -> &'a [u8] {
+        let view = &self.root.buffer_views[index];
+        // No more than the buffer's length, which is that of bytes in memory.
+        let [start, length] = [view.byte_offset.unwrap_or_default(), view.byte_length].map(|bytes| bytes.0 as usize);
+        &self.buffers[view.buffer.value()][start..][..length]
     }
 
     /// The elements, all there.
     fn elements(&self, index: usize) -> Result<Elements<'a>, Fault> {
-        let accessor = self.get(index)?;
+        let accessor = &self.root.accessors[index];
         let place = || label("accessor", index, accessor.name.as_deref());
         if accessor.sparse.is_some() {
             return Err(Fault::at(place(), "is sparse, which is not served; export the file without sparse accessors"));
         }
-        let view = accessor.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
+        let view = accessor.buffer_view.map(|view| self.view(view.value()));
         let (Some(bytes), Some(layout)) = (view, self.layout(index)?) else {
             let what = "has no bufferView (a compressed mesh perhaps); export the file without compression";
             return Err(Fault::at(place(), what));
@@ -133,7 +143,7 @@ impl<'a> Accessors<'a> {
 
     /// Where the elements lie, none where there is no view. They lie within the view.
     fn layout(&self, index: usize) -> Result<Option<Layout>, Fault> {
-        let accessor = self.get(index)?;
+        let accessor = &self.root.accessors[index];
         let wrong = |what: String| {
             Fault::at(label("accessor", index, accessor.name.as_deref()), format_args!("{what}; export the file again"))
         };
@@ -145,8 +155,7 @@ impl<'a> Accessors<'a> {
             return Err(wrong("count is 0".to_owned()));
         }
         let Some(view_index) = accessor.buffer_view else { return Ok(None) };
-        let view = self.root.buffer_views.get(view_index.value());
-        let view = view.ok_or_else(|| wrong(format!("there is no bufferView {view_index}")))?;
+        let view = &self.root.buffer_views[view_index.value()];
         let element = (component.0.size() * kind.multiplicity()) as u64;
         let stride = view.byte_stride.map_or(element, |stride| stride.0 as u64);
         let offset = accessor.byte_offset.unwrap_or_default().0;

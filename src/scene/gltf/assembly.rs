@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DMat4, Vec3};
+use glam::{DAffine3, DMat4, DVec3, Vec3};
 use gltf::json::Root;
 
 use super::accessor::Accessors;
 use super::nodes::{Placed, node_label};
 use super::primitives::Reader;
-use super::{Fault, cut, materials};
+use super::{Fault, cut};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Bounds, Instance, Scene};
+use crate::scene::{Bounds, Instance, Material, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
@@ -23,9 +23,8 @@ const SINGULAR: f64 = 1e-6;
 const SHORTEST: f64 = 1e-18;
 
 /// `mesh 3 "sleeve" primitive 0`.
-pub fn primitive_label(root: &Root, mesh: usize, primitive: usize) -> String {
-    let name = root.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref());
-    format!("{} primitive {primitive}", label("mesh", mesh, name))
+fn primitive_label(root: &Root, mesh: usize, primitive: usize) -> String {
+    format!("{} primitive {primitive}", label("mesh", mesh, root.meshes[mesh].name.as_deref()))
 }
 
 /// Fills a scene.
@@ -57,7 +56,7 @@ impl<'a> Assembly<'a> {
             self.load(mesh.value())?;
             let wrong = |what: String| Fault::at(node_label(self.root, index), what);
             for &(mesh, bounds) in &self.meshes[&mesh.value()] {
-                check_reach(world_from_node, bounds.corners()).map_err(wrong)?;
+                check_reach(world_from_node, bounds.min.abs().max(bounds.max.abs())).map_err(wrong)?;
                 if is_singular(world_from_node) {
                     continue;
                 }
@@ -93,18 +92,21 @@ impl<'a> Assembly<'a> {
 
     fn default_material(&mut self) -> usize {
         *self.default_material.get_or_insert_with(|| {
-            self.scene.materials.push(materials::default_material());
+            self.scene.materials.push(Material { name: "default".to_owned(), ..Material::default() });
             self.scene.materials.len() - 1
         })
     }
 }
 
-/// Whether `points` stand, placed, where 32-bit floats can work with them; else what is wrong.
-pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N]) -> Result<(), String> {
+/// Whether 32-bit floats can place points whose coordinates are up to `extent`; else what is wrong.
+pub fn check_reach(world_from_node: DAffine3, extent: Vec3) -> Result<(), String> {
     let matrix = world_from_node.matrix3;
-    let entries = matrix.to_cols_array().into_iter().chain(world_from_node.translation.to_array());
-    let placed = points.into_iter().flat_map(|point| world_from_node.transform_point3(point.as_dvec3()).to_array());
-    match entries.chain(placed).find(|value| !(value.abs() <= REACH)) {
+    // No sum on the way to a placed coordinate is greater.
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::abs);
+    let extent = extent.as_dvec3();
+    let reach = x * extent.x + y * extent.y + z * extent.z + world_from_node.translation.abs();
+    let values = [reach, x, y, z].into_iter().flat_map(|vector| vector.to_array());
+    match values.into_iter().find(|value| value.is_nan() || *value > REACH) {
         None => Ok(()),
         Some(value) => Err(format!("reaches {value:e} m in the world; bring it within {REACH:e} m of the origin")),
     }

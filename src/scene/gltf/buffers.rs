@@ -9,7 +9,6 @@ use std::rc::Rc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use gltf::json;
 use percent_encoding::percent_decode_str;
 
 use super::Fault;
@@ -24,10 +23,10 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     let unreadable = |error: std::io::Error| Fault::new(format_args!("can't be read ({error}); check the path"));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(Fault::new("is a folder; give a .gltf or .glb file"));
+        return Err(Fault::new("is a folder; name a file"));
     }
     if !metadata.is_file() {
-        return Err(Fault::new("is no ordinary file; give a .gltf or .glb file"));
+        return Err(Fault::new("is no ordinary file; name one that is"));
     }
     if metadata.len() > FILE_BYTES_MAX {
         let length = metadata.len();
@@ -104,12 +103,4 @@ fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
         ));
     }
     Ok(folder.join(path))
-}
-
-/// The part of its buffer that a view shows.
-pub fn view<'a>(root: &json::Root, buffers: &'a [Rc<[u8]>], index: usize) -> Option<&'a [u8]> {
-    let view = root.buffer_views.get(index)?;
-    let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
-    let length = usize::try_from(view.byte_length.0).ok()?;
-    buffers.get(view.buffer.value())?.get(start..start.checked_add(length)?)
 }

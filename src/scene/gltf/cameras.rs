@@ -19,8 +19,7 @@ pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec
     for &Placed { node: index, world_from_node } in placed {
         let node = &root.nodes[index];
         let Some(camera) = node.camera.map(|camera| camera.value()) else { continue };
-        assembly::check_reach(world_from_node, [Vec3::ZERO])
-            .map_err(|what| Fault::at(node_label(root, index), what))?;
+        assembly::check_reach(world_from_node, Vec3::ZERO).map_err(|what| Fault::at(node_label(root, index), what))?;
         let name = root.cameras[camera].name.as_ref().or(node.name.as_ref());
         match world_from_camera(world_from_node) {
             None => {

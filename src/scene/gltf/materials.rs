@@ -1,5 +1,6 @@
 //! Materials: the factors that are drawn, with their ranges checked.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use glam::Vec3;
@@ -14,6 +15,9 @@ use crate::scene::notices::Notices;
 use crate::scene::{Material, Sheen};
 
 const SHEEN: &str = "KHR_materials_sheen";
+const TEXTURES: &str = "textures are not drawn yet, only the factors beside them";
+const EXTENSIONS_SHOWN: usize = 20;
+
 /// In the order of `Scene::materials`: the file's own.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
     let read = |(index, material): (usize, &json::Material)| {
@@ -21,13 +25,9 @@ pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> 
         note(material, &place, notices);
         read_one(material).map_err(|what| Fault::at(place(), what))
     };
-    root.materials.iter().enumerate().map(read).collect()
-}
-
-/// What a primitive without a material is made of, by glTF.
-pub fn default_material() -> Material {
-    let name = "default".to_owned();
-    Material { name, base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
+    let materials = root.materials.iter().enumerate().map(read).collect::<Result<_, _>>()?;
+    note_extensions(root, notices);
+    Ok(materials)
 }
 
 fn read_one(material: &json::Material) -> Result<Material, String> {
@@ -106,7 +106,7 @@ fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Not
         ("emissiveTexture", material.emissive_texture.is_some()),
     ];
     for (texture, _) in textures.iter().filter(|(_, there)| *there) {
-        notices.add("textures are not drawn yet, only the factors beside them", || format!("{texture} of {}", place()));
+        notices.add(TEXTURES, || format!("{texture} of {}", place()));
     }
     if pbr.metallic_factor.0 > 0.0 {
         notices.add("metals are drawn with their base color as a diffuse one", place);
@@ -114,12 +114,22 @@ fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Not
     if !matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {
         notices.add("transparent materials are drawn opaque", place);
     }
-    for (name, value) in extensions.into_iter().flat_map(|extensions| &extensions.others) {
-        if name != SHEEN {
-            notices.add("material extensions that are not drawn", || format!("{name} of {}", place()));
-        } else if value.get("sheenColorTexture").or(value.get("sheenRoughnessTexture")).is_some() {
-            notices
-                .add("textures are not drawn yet, only the factors beside them", || format!("{name}'s of {}", place()));
-        }
+    let sheen = extensions.and_then(|extensions| extensions.others.get(SHEEN));
+    if sheen
+        .is_some_and(|sheen| ["sheenColorTexture", "sheenRoughnessTexture"].iter().any(|key| sheen.get(key).is_some()))
+    {
+        notices.add(TEXTURES, || format!("{SHEEN}'s of {}", place()));
+    }
+}
+
+/// Notes the extensions that are not served, all in one line.
+fn note_extensions(root: &Root, notices: &mut Notices) {
+    let of_materials = root.materials.iter().filter_map(|material| material.extensions.as_ref());
+    let of_materials = of_materials.flat_map(|extensions| extensions.others.keys());
+    let names: BTreeSet<&String> = root.extensions_used.iter().chain(of_materials).collect();
+    let names = names.into_iter().filter(|name| !super::SERVED.contains(&name.as_str())).map(|name| super::cut(name));
+    let names: Vec<String> = names.take(EXTENSIONS_SHOWN).collect();
+    if !names.is_empty() {
+        notices.add("extensions that are not served are passed over", || names.join(", "));
     }
 }

@@ -1,7 +1,7 @@
 //! glTF 2.0 in (.gltf and .glb).
 //!
-//! Files come from anywhere, so nothing in them is believed: [`json`] proves the types of values, [`accessor`] the
-//! ranges, [`nodes`] that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
+//! Files come from anywhere, so nothing in them is believed: `json` proves the types of values and that indices point to
+//! something, `accessor` that data is there, `nodes` that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
 //! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
 
 mod accessor;
@@ -28,7 +28,7 @@ use assembly::Assembly;
 /// Extensions that a file may require.
 const SERVED: [&str; 2] = ["KHR_materials_emissive_strength", "KHR_materials_sheen"];
 /// Names are cut to this many characters: many things may bear the same one.
-const NAME_MAX: usize = 256;
+const NAME_MAX: usize = 128;
 
 /// The scene in a .gltf file, with the buffers that lie beside it, or in a .glb file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
@@ -49,9 +49,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     let root = &document.root;
     check_extensions(root)?;
     let buffers = buffers::load(&document, folder)?;
-    let accessors = Accessors { root, buffers: &buffers };
-    accessors.check()?;
-    check_references(root)?;
+    let accessors = Accessors::new(root, &buffers)?;
     let placed = nodes::place(root)?;
     let mut notices = Notices::default();
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
@@ -60,9 +58,9 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     if scene.instances.is_empty() {
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
-    lights::add_lights(&mut scene, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
     rig::add_rig(&mut scene, &mut notices);
+    lights::add_lights(&mut scene, &mut notices);
     scene.notices = notices.into_lines().collect();
     Ok(scene)
 }
@@ -75,38 +73,6 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
             Err(Fault::at("extensionsRequired", what))
         }
     }
-}
-
-/// The indices that only nodes and primitives hold; others are checked where they are followed.
-fn check_references(root: &Root) -> Result<(), Fault> {
-    for (index, node) in root.nodes.iter().enumerate() {
-        let missing = |kind: &str, wanted: Option<usize>, count: usize| match wanted.filter(|&wanted| wanted >= count) {
-            None => Ok(()),
-            Some(wanted) => {
-                let what = format_args!("there is no {kind} {wanted}; export the file again");
-                Err(Fault::at(nodes::node_label(root, index), what))
-            }
-        };
-        missing("mesh", node.mesh.map(|index| index.value()), root.meshes.len())?;
-        missing("camera", node.camera.map(|index| index.value()), root.cameras.len())?;
-        missing("skin", node.skin.map(|index| index.value()), root.skins.len())?;
-    }
-    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
-        for (index, primitive) in primitives.iter().enumerate() {
-            let missing = |kind: &str, wanted: usize| {
-                let what = format_args!("there is no {kind} {wanted}; export the file again");
-                Err(Fault::at(assembly::primitive_label(root, mesh, index), what))
-            };
-            let accessors = primitive.attributes.values().chain(&primitive.indices);
-            if let Some(wanted) = accessors.map(|index| index.value()).find(|&index| index >= root.accessors.len()) {
-                return missing("accessor", wanted);
-            }
-            if let Some(wanted) = primitive.material.filter(|material| material.value() >= root.materials.len()) {
-                return missing("material", wanted.value());
-            }
-        }
-    }
-    Ok(())
 }
 
 /// A name of the file's, cut to a length that many things may bear.

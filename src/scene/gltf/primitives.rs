@@ -16,6 +16,12 @@ const TRIANGLE_BYTES: u64 = 84;
 const SHARING: u64 = 64;
 const SHARING_FLOOR: u64 = 64 << 20;
 
+/// Triangles of a primitive, as indices into the vertices that are used: those listed, or all where there is no list.
+struct Corners {
+    used: Option<Vec<u32>>,
+    triangles: Vec<[u32; 3]>,
+}
+
 /// Reads primitives, within a budget of memory.
 pub struct Reader<'a> {
     accessors: Accessors<'a>,
@@ -51,7 +57,7 @@ impl<'a> Reader<'a> {
         if let Some(codec) = compression(primitive) {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
-        let (used, mut indices) = self.corners(primitive, positions.value(), mode)?;
+        let Corners { used, triangles: mut indices } = self.corners(primitive, positions.value(), mode)?;
         let positions = self.accessors.vectors(positions.value(), used.as_deref())?;
         indices.retain(|&triangle| area_vector(&positions, triangle) != DVec3::ZERO);
         if indices.is_empty() {
@@ -68,14 +74,8 @@ impl<'a> Reader<'a> {
         Ok(Some(mesh))
     }
 
-    /// The triangles of a primitive as indices into the vertices that are used: those listed, or all where there is no
-    /// list. There are never more vertices than corners, so that what is read is paid for by indices.
-    fn corners(
-        &mut self,
-        primitive: &Primitive,
-        positions: usize,
-        mode: Mode,
-    ) -> Result<(Option<Vec<u32>>, Vec<[u32; 3]>), Fault> {
+    /// There are never more vertices used than there are corners, so that what is read is paid for by indices.
+    fn corners(&mut self, primitive: &Primitive, positions: usize, mode: Mode) -> Result<Corners, Fault> {
         let count = self.accessors.count(positions)?;
         if let Some(normals) = primitive.attributes.get(&Valid(Semantic::Normals)) {
             let normals = self.accessors.count(normals.value())?;
@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
             }
             used
         });
-        Ok((used, triangles(&corners, mode)))
+        Ok(Corners { used, triangles: triangles(&corners, mode) })
     }
 
     fn charge(&mut self, corners: usize, mode: Mode) -> Result<(), Fault> {

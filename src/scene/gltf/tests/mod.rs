@@ -1,4 +1,6 @@
 //! Small files made in memory, read back.
 
 mod builder;
+mod files;
+mod hostile;
 mod reads;
