@@ -1,19 +1,18 @@
 //! Typed reading of accessors, every range checked.
 
-use std::rc::Rc;
-
 use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{self, Root};
 
-use super::{Fault, buffers};
+use super::Fault;
+use super::buffers::{self, Bytes};
 use crate::scene::error::label;
 
 /// The accessors of a file with what they read.
 pub struct Accessors<'a> {
     pub root: &'a Root,
-    pub buffers: &'a [Rc<[u8]>],
+    pub buffers: &'a [Bytes<'a>],
 }
 
 /// The layout of an accessor's elements within its view, in bytes.

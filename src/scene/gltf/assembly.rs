@@ -59,6 +59,7 @@ impl<'a> Assembly<'a> {
             for &(mesh, bounds) in &self.meshes[&mesh.value()] {
                 check_reach(world_from_node, bounds.corners()).map_err(wrong)?;
                 if is_singular(world_from_node) {
+                    self.notices.add("things scaled to nothing are not drawn", || node_label(self.root, index));
                     continue;
                 }
                 if self.scene.instances.len() == INSTANCES_MAX {

@@ -4,8 +4,10 @@ use std::ops::RangeInclusive;
 
 use glam::Vec3;
 use gltf::json::material::AlphaMode;
+use gltf::json::texture::{Info, Texture};
 use gltf::json::validation::Checked;
-use gltf::json::{self, Root};
+use gltf::json::{self, Index, Root};
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::Fault;
@@ -14,6 +16,8 @@ use crate::scene::notices::Notices;
 use crate::scene::{Material, Sheen};
 
 const SHEEN: &str = "KHR_materials_sheen";
+const SHEEN_TEXTURES: [&str; 2] = ["sheenColorTexture", "sheenRoughnessTexture"];
+
 /// In the order of `Scene::materials`: the file's own.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
     let read = |(index, material): (usize, &json::Material)| {
@@ -71,6 +75,10 @@ fn read_sheen(value: &Value) -> Result<Sheen, String> {
             number(value).ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", brief(value)))?
         }
     };
+    for name in SHEEN_TEXTURES {
+        let broken = |error| format!("{name} is broken ({error}); correct it");
+        members.get(name).map(texture).transpose().map_err(broken)?;
+    }
     let color = Vec3::from(in_unit("sheenColorFactor", color)?);
     let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
     Ok(Sheen { color, roughness })
@@ -94,32 +102,41 @@ fn in_range<const N: usize>(name: &str, values: [f32; N], range: RangeInclusive<
     }
 }
 
+/// The textures of a material by their members' names.
+pub fn textures(material: &json::Material) -> Vec<(&'static str, Index<Texture>)> {
+    let pbr = &material.pbr_metallic_roughness;
+    let sheen = material.extensions.as_ref().and_then(|extensions| extensions.others.get(SHEEN));
+    let of_sheen = |name| sheen.and_then(|sheen| texture(sheen.get(name)?).ok());
+    let textures = [
+        ("baseColorTexture", pbr.base_color_texture.as_ref().map(|texture| texture.index)),
+        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.as_ref().map(|texture| texture.index)),
+        ("normalTexture", material.normal_texture.as_ref().map(|texture| texture.index)),
+        ("occlusionTexture", material.occlusion_texture.as_ref().map(|texture| texture.index)),
+        ("emissiveTexture", material.emissive_texture.as_ref().map(|texture| texture.index)),
+        (SHEEN_TEXTURES[0], of_sheen(SHEEN_TEXTURES[0])),
+        (SHEEN_TEXTURES[1], of_sheen(SHEEN_TEXTURES[1])),
+    ];
+    textures.into_iter().filter_map(|(name, texture)| Some((name, texture?))).collect()
+}
+
+fn texture(value: &Value) -> Result<Index<Texture>, serde_json::Error> {
+    Info::deserialize(value).map(|info| info.index)
+}
+
 /// Notes what of a material is not drawn.
 fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Notices) {
-    let pbr = &material.pbr_metallic_roughness;
-    let extensions = material.extensions.as_ref();
-    let textures = [
-        ("baseColorTexture", pbr.base_color_texture.is_some()),
-        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.is_some()),
-        ("normalTexture", material.normal_texture.is_some()),
-        ("occlusionTexture", material.occlusion_texture.is_some()),
-        ("emissiveTexture", material.emissive_texture.is_some()),
-    ];
-    for (texture, _) in textures.iter().filter(|(_, there)| *there) {
+    for (texture, _) in textures(material) {
         notices.add("textures are not drawn yet, only the factors beside them", || format!("{texture} of {}", place()));
     }
-    if pbr.metallic_factor.0 > 0.0 {
+    if material.pbr_metallic_roughness.metallic_factor.0 > 0.0 {
         notices.add("metals are drawn with their base color as a diffuse one", place);
     }
     if !matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {
         notices.add("transparent materials are drawn opaque", place);
     }
-    for (name, value) in extensions.into_iter().flat_map(|extensions| &extensions.others) {
+    for name in material.extensions.iter().flat_map(|extensions| extensions.others.keys()) {
         if name != SHEEN {
             notices.add("material extensions that are not drawn", || format!("{name} of {}", place()));
-        } else if value.get("sheenColorTexture").or(value.get("sheenRoughnessTexture")).is_some() {
-            notices
-                .add("textures are not drawn yet, only the factors beside them", || format!("{name}'s of {}", place()));
         }
     }
 }

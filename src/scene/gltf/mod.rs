@@ -13,6 +13,7 @@ mod json;
 mod materials;
 mod nodes;
 mod primitives;
+mod references;
 #[cfg(test)]
 mod tests;
 
@@ -51,7 +52,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     let buffers = buffers::load(&document, folder)?;
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
-    check_references(root)?;
+    references::check(root)?;
     let placed = nodes::place(root)?;
     let mut notices = Notices::default();
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
@@ -75,38 +76,6 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
             Err(Fault::at("extensionsRequired", what))
         }
     }
-}
-
-/// The indices that only nodes and primitives hold; others are checked where they are followed.
-fn check_references(root: &Root) -> Result<(), Fault> {
-    for (index, node) in root.nodes.iter().enumerate() {
-        let missing = |kind: &str, wanted: Option<usize>, count: usize| match wanted.filter(|&wanted| wanted >= count) {
-            None => Ok(()),
-            Some(wanted) => {
-                let what = format_args!("there is no {kind} {wanted}; export the file again");
-                Err(Fault::at(nodes::node_label(root, index), what))
-            }
-        };
-        missing("mesh", node.mesh.map(|index| index.value()), root.meshes.len())?;
-        missing("camera", node.camera.map(|index| index.value()), root.cameras.len())?;
-        missing("skin", node.skin.map(|index| index.value()), root.skins.len())?;
-    }
-    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
-        for (index, primitive) in primitives.iter().enumerate() {
-            let missing = |kind: &str, wanted: usize| {
-                let what = format_args!("there is no {kind} {wanted}; export the file again");
-                Err(Fault::at(assembly::primitive_label(root, mesh, index), what))
-            };
-            let accessors = primitive.attributes.values().chain(&primitive.indices);
-            if let Some(wanted) = accessors.map(|index| index.value()).find(|&index| index >= root.accessors.len()) {
-                return missing("accessor", wanted);
-            }
-            if let Some(wanted) = primitive.material.filter(|material| material.value() >= root.materials.len()) {
-                return missing("material", wanted.value());
-            }
-        }
-    }
-    Ok(())
 }
 
 /// A name of the file's, cut to a length that many things may bear.

@@ -144,6 +144,8 @@ fn area_vector(positions: &[Vec3], [a, b, c]: [u32; 3]) -> DVec3 {
 fn flatten(mesh: &mut Mesh) {
     let corners = std::mem::take(&mut mesh.indices);
     let positions = std::mem::take(&mut mesh.positions);
+    mesh.positions.reserve_exact(corners.len());
+    mesh.normals.reserve_exact(corners.len());
     for triangle in corners.chunks_exact(3) {
         let triangle = [triangle[0], triangle[1], triangle[2]];
         let normal = area_vector(&positions, triangle).normalize().as_vec3();
