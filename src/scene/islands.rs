@@ -16,8 +16,10 @@ use super::{Bounds, Instance, Mesh, Polygon};
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Half the thickness of an island, relative to the diagonal of its bounding box.
 const PLANE_TOLERANCE: f64 = 1e-3;
-/// Cosine of the sharpest edge (3 degrees) across which triangles are taken for parts of one plane without a look at
-/// the plane: well above the noise of rounded positions in finely divided planes.
+/// Cosine of the sharpest edge (60 degrees) within an island: noise well within the plane's tolerance may turn the faces
+/// of a finely divided plane as far.
+const FACING_COSINE: f64 = 0.5;
+/// Cosine of the sharpest edge (3 degrees) within an island of a patch that is not planar as a whole.
 const SMOOTH_COSINE: f64 = 0.9986;
 /// Edges with more triangles than this join none: where honest meshes have two, hostile ones have a million.
 const EDGE_USES_MAX: usize = 8;
@@ -59,8 +61,7 @@ impl Topology {
         let world_from_mesh = DAffine3::from_mat4(instance.world_from_mesh.as_dmat4());
         let positions = mesh.positions.iter().map(|position| world_from_mesh.transform_point3(position.as_dvec3()));
         let positions: Vec<DVec3> = positions.collect();
-        let mirrored = world_from_mesh.matrix3.determinant() < 0.0;
-        let turned = |&[a, b, c]: &[u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let turned = |&[a, b, c]: &[u32; 3]| if instance.mirrors() { [a, c, b] } else { [a, b, c] };
         let triangles: Vec<[u32; 3]> = self.triangles.iter().map(turned).collect();
         let faces = triangles.iter().map(|&corners| {
             let [a, b, c] = corners.map(|corner| positions[corner as usize]);
@@ -79,29 +80,59 @@ impl Topology {
 
 /// For each vertex the first one at its place, to `tolerance`.
 fn weld(positions: &[Vec3], tolerance: f64) -> Vec<u32> {
-    let origin = Bounds::of_points(positions).min.as_dvec3();
-    // Twice as wide as the tolerance: whatever is near a point lies in one of eight cells.
-    let width = (2.0 * tolerance).max(f64::MIN_POSITIVE);
-    let cell = |point: DVec3| ((point - origin) / width).floor().to_array().map(|index| index as i64);
+    let mut places = Places::new(positions, tolerance);
     let mut same = HashMap::with_capacity(positions.len());
-    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    let mut find_or_insert = |index: usize| {
-        let point = positions[index].as_dvec3();
-        let near = (0..8).find_map(|corner| {
-            let offset = |axis: i32| if corner >> axis & 1 == 0 { -tolerance } else { tolerance };
-            let others = cells.get(&cell(point + DVec3::new(offset(0), offset(1), offset(2))))?;
-            let is_near = |&&other: &&u32| positions[other as usize].as_dvec3().distance(point) <= tolerance;
-            others.iter().find(is_near).copied()
-        });
-        near.unwrap_or_else(|| {
-            cells.entry(cell(point)).or_default().push(index as u32);
-            index as u32
-        })
-    };
     // Most vertices that meet are equal to the bit: these need no search. Adding zero makes -0 and 0 one.
     let key = |position: &Vec3| (*position + Vec3::ZERO).to_array().map(f32::to_bits);
     let welded = positions.iter().enumerate();
-    welded.map(|(index, position)| *same.entry(key(position)).or_insert_with(|| find_or_insert(index))).collect()
+    welded.map(|(index, position)| *same.entry(key(position)).or_insert_with(|| places.find_or_insert(index))).collect()
+}
+
+/// Vertices no two of which are at one place, in cells.
+struct Places<'a> {
+    positions: &'a [Vec3],
+    tolerance: f64,
+    origin: DVec3,
+    cell_width: f64,
+    /// The last vertex in each cell that has any, and the one before each vertex in its cell.
+    last: HashMap<[i64; 3], u32>,
+    before: Vec<Option<u32>>,
+}
+
+impl<'a> Places<'a> {
+    fn new(positions: &'a [Vec3], tolerance: f64) -> Self {
+        let origin = Bounds::of_points(positions).min.as_dvec3();
+        // So wide that most searches end in one cell, and so narrow that no cell holds more than some hundreds.
+        let cell_width = (8.0 * tolerance).max(f64::MIN_POSITIVE);
+        let last = HashMap::with_capacity(positions.len());
+        Self { positions, tolerance, origin, cell_width, last, before: vec![None; positions.len()] }
+    }
+
+    /// The vertex at the place of `index`, which is itself where there was none.
+    fn find_or_insert(&mut self, index: usize) -> u32 {
+        let point = self.positions[index].as_dvec3();
+        let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    let vertices = std::iter::successors(self.last.get(&[x, y, z]).copied(), |&vertex| {
+                        self.before[vertex as usize]
+                    });
+                    let mut near = vertices
+                        .filter(|&vertex| self.positions[vertex as usize].as_dvec3().distance(point) <= self.tolerance);
+                    if let Some(vertex) = near.next() {
+                        return vertex;
+                    }
+                }
+            }
+        }
+        self.before[index] = self.last.insert(self.cell(point), index as u32);
+        index as u32
+    }
+
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        ((point - self.origin) / self.cell_width).floor().to_array().map(|index| index as i64)
+    }
 }
 
 /// Neighbours of triangles, as `Topology` holds them.
@@ -140,14 +171,42 @@ struct Placed<'a> {
 impl Placed<'_> {
     fn polygons(&self, limit: usize) -> Option<Vec<Polygon>> {
         let mut taken = vec![false; self.triangles.len()];
-        let mut polygons = Vec::new();
+        let mut islands = Vec::new();
         for seed in 0..self.triangles.len() as u32 {
+            let patch = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > FACING_COSINE);
+            self.part(patch, &mut islands, limit)?;
+        }
+        Some(islands.iter().filter_map(|island| self.polygon(island)).collect())
+    }
+
+    /// Parts triangles that hang together into islands: where not all of them lie in one plane, the smooth parts
+    /// between sharp edges may. None where there are more than `limit`.
+    fn part(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
+        if self.is_planar(&patch) {
+            // An empty one is no island.
+            islands.extend(Some(patch).filter(|patch| !patch.is_empty()));
+            return (islands.len() <= limit).then_some(());
+        }
+        let mut taken = self.all_taken_but(&patch);
+        for &seed in &patch {
             let smooth = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > SMOOTH_COSINE);
-            for island in self.split(smooth, limit.checked_sub(polygons.len())?)? {
-                polygons.extend(self.polygon(&island));
+            if self.is_planar(&smooth) {
+                islands.extend(Some(smooth).filter(|smooth| !smooth.is_empty()));
+            } else {
+                self.split(smooth, islands, limit)?;
+            }
+            if islands.len() > limit {
+                return None;
             }
         }
-        (polygons.len() <= limit).then_some(polygons)
+        Some(())
+    }
+
+    /// Nothing but `patch` is open to growth.
+    fn all_taken_but(&self, patch: &[u32]) -> Vec<bool> {
+        let mut taken = vec![true; self.triangles.len()];
+        patch.iter().for_each(|&triangle| taken[triangle as usize] = false);
+        taken
     }
 
     fn cosine(&self, left: u32, right: u32) -> f64 {
@@ -173,32 +232,20 @@ impl Placed<'_> {
         grown
     }
 
-    /// The planar parts of a smooth one: all of it where it can be, else grown from the largest triangle that is left.
-    /// None where there are more than `limit`.
-    fn split(&self, smooth: Vec<u32>, limit: usize) -> Option<Vec<Vec<u32>>> {
-        if smooth.is_empty() {
-            return Some(Vec::new());
-        }
-        if self.is_planar(&smooth) {
-            return (limit > 0).then(|| vec![smooth]);
-        }
-        let mut seeds = smooth;
+    /// Parts a curved patch into planes, each grown from the largest triangle that is left. None where there are more
+    /// than `limit` islands.
+    fn split(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
+        let mut taken = self.all_taken_but(&patch);
+        let mut seeds = patch;
         let area = |triangle: &u32| self.faces[*triangle as usize].area.length_squared();
         seeds.sort_by(|left, right| area(right).total_cmp(&area(left)).then(left.cmp(right)));
-        // Nothing but the part itself is open to growth.
-        let mut taken = vec![true; self.triangles.len()];
-        seeds.iter().for_each(|&triangle| taken[triangle as usize] = false);
-        let mut islands = Vec::new();
         for &seed in &seeds {
-            let island = self.grow_plane(seed, &mut taken);
-            if !island.is_empty() {
-                islands.push(island);
-            }
+            islands.extend(Some(self.grow_plane(seed, &mut taken)).filter(|island| !island.is_empty()));
             if islands.len() > limit {
                 return None;
             }
         }
-        Some(islands)
+        Some(())
     }
 
     /// Grows through triangles that lie in the plane of `seed`, to the tolerance of what has grown so far.

@@ -3,7 +3,7 @@
 use glam::{Mat3, Mat4, Vec3};
 
 use super::notices::Notices;
-use super::{Instance, Material, Mesh, Scene, framing, lights};
+use super::{Camera, Instance, Material, Mesh, Projection, Scene, framing, lights};
 
 /// Radiance of a white diffuse surface that faces the key light.
 const KEY_LEVEL: f32 = 0.7;
@@ -11,6 +11,11 @@ const FILL_LEVEL: f32 = 0.15;
 const RIM_LEVEL: f32 = 0.9;
 /// From the subject's middle, in its radii: out of the frame of a camera that frames the subject.
 const DISTANCE: f32 = 3.5;
+
+/// Pictures wider than this, relative to their height, may show a light of the rig.
+const ASPECT: f32 = 2.0;
+/// How many sizes of the rig are tried for one that the camera does not see.
+const SIZES: usize = 6;
 
 /// One rectangle of the rig. It faces the subject.
 struct Panel {
@@ -26,27 +31,59 @@ struct Panel {
 const PANELS: [Panel; 3] = [
     Panel { name: "key", direction: Vec3::new(-0.75, 0.55, 0.6), half_size: [1.0, 1.0], level: KEY_LEVEL },
     Panel { name: "fill", direction: Vec3::new(0.95, 0.1, 0.5), half_size: [0.8, 1.4], level: FILL_LEVEL },
-    Panel { name: "rim", direction: Vec3::new(0.35, 0.85, -0.45), half_size: [1.2, 0.4], level: RIM_LEVEL },
+    Panel { name: "rim", direction: Vec3::new(0.35, 0.95, -0.35), half_size: [1.2, 0.4], level: RIM_LEVEL },
 ];
+
+impl Panel {
+    /// Where it stands for a subject of `radius` about `center`: a square of two metres in the plane z = 0, which glows
+    /// towards +z, is taken to the world.
+    fn world_from_mesh(&self, camera: &Camera, center: Vec3, radius: f32) -> Mat4 {
+        let world_from_camera = Mat3::from_mat4(camera.world_from_camera);
+        let front = world_from_camera * -self.direction.normalize();
+        // Its own x stays level in the camera's view.
+        let right = (world_from_camera * Vec3::Y).cross(front).normalize();
+        let axes = Mat3::from_cols(right * self.half_size[0], front.cross(right) * self.half_size[1], front);
+        Mat4::from_translation(center - DISTANCE * radius * front) * Mat4::from_mat3(axes * radius)
+    }
+}
 
 /// Adds the rig around what the first camera shows, where nothing in the scene glows.
 pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
     let glows = |instance: &Instance| scene.materials[scene.meshes[instance.mesh].material].emission != Vec3::ZERO;
     let (false, Some(camera)) = (scene.instances.iter().any(glows), scene.cameras.first()) else { return };
-    let world_from_camera = Mat3::from_mat4(camera.world_from_camera);
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
-    for panel in &PANELS {
-        let back = world_from_camera * -panel.direction.normalize();
-        // Its own x stays level in the camera's view; its z, the side that glows, faces the subject.
-        let right = (world_from_camera * Vec3::Y).cross(back).normalize();
-        let axes = Mat3::from_cols(right * panel.half_size[0], back.cross(right) * panel.half_size[1], back);
-        let world_from_mesh =
-            Mat4::from_translation(center - DISTANCE * radius * back) * Mat4::from_mat3(axes * radius);
+    // Further away and larger by as much it lights a subject the same, and leaves the frame at last.
+    let sizes = std::iter::successors(Some(radius), |size| Some(2.0 * size)).take(SIZES);
+    let placed = sizes.map(|size| PANELS.each_ref().map(|panel| panel.world_from_mesh(camera, center, size)));
+    let unseen = |placed: &[Mat4; PANELS.len()]| !placed.iter().any(|&panel| shows(camera, panel));
+    let placed: Vec<_> = placed.collect();
+    let placed = *placed.iter().find(|placed| unseen(placed)).unwrap_or(&placed[0]);
+    for (panel, world_from_mesh) in PANELS.iter().zip(placed) {
         add_panel(scene, panel, world_from_mesh);
     }
     lights::add_lights(scene, notices);
     notices.add("no light in the file", || "key, fill and rim lights are added".to_owned());
+}
+
+/// Whether any of the face of a panel may be in the frame.
+fn shows(camera: &Camera, world_from_mesh: Mat4) -> bool {
+    let camera_from_mesh = camera.world_from_camera.inverse() * world_from_mesh;
+    let (front, middle) = (camera_from_mesh.z_axis.truncate(), camera_from_mesh.w_axis.truncate());
+    // Half the frame's height at a point, and the way from there to the camera.
+    let (half_height, to_camera): (&dyn Fn(Vec3) -> f32, Vec3) = match camera.projection {
+        Projection::Perspective { yfov, .. } => (&move |point: Vec3| -point.z * (0.5 * yfov).tan(), -middle),
+        Projection::Orthographic { ymag, .. } => (&move |_| ymag, Vec3::Z),
+    };
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corners = corners.map(|(x, y)| camera_from_mesh.transform_point3(Vec3::new(x, y, 0.0)));
+    let sides = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
+    let is_past = |side: Vec3| {
+        let stretch = side.abs().dot(Vec3::new(ASPECT, 1.0, 1.0));
+        corners.iter().all(|&corner| side.dot(corner) > stretch * half_height(corner))
+    };
+    let is_behind = corners.iter().all(|corner| corner.z >= 0.0);
+    front.dot(to_camera) > 0.0 && !is_behind && !sides.into_iter().any(is_past)
 }
 
 fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {

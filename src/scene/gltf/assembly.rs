@@ -15,8 +15,9 @@ use crate::scene::{Bounds, Instance, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
-/// Metres from the origin within which things stand: beyond Saturn, and the cube of it fits in 32-bit floats.
-const REACH: f64 = 1e12;
+/// Metres from the origin within which things stand: beyond the Moon, and with lights set up around them the cube of all
+/// distances fits in 32-bit floats.
+const REACH: f64 = 1e10;
 /// A transform whose axes, made unit, span less than this much volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
 /// Shortest axis of a transform: the square of anything shorter is nothing in 32-bit floats.
@@ -105,9 +106,9 @@ pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N])
     let matrix = world_from_node.matrix3;
     let entries = matrix.to_cols_array().into_iter().chain(world_from_node.translation.to_array());
     let placed = points.into_iter().flat_map(|point| world_from_node.transform_point3(point.as_dvec3()).to_array());
-    match entries.chain(placed).find(|value| !(value.abs() <= REACH)) {
+    match entries.chain(placed).find(|value| value.is_nan() || value.abs() > REACH) {
         None => Ok(()),
-        Some(value) => Err(format!("reaches {value:e} m in the world; bring it within {REACH:e} m of the origin")),
+        Some(value) => Err(format!("reaches {value:.2e} m in the world; bring it within {REACH:e} m of the origin")),
     }
 }
 

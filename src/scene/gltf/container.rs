@@ -49,7 +49,7 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// The data of the first chunk, which must be of `kind`, and what follows it.
 fn split_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Result<(&'a [u8], &'a [u8]), Fault> {
-    let name = String::from_utf8_lossy(&kind[..3]);
+    let name = String::from_utf8_lossy(kind.strip_suffix(b"\0").unwrap_or(kind));
     let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
     let header = bytes.get(..CHUNK_HEADER).ok_or_else(cut)?;
     if header[4..] != kind[..] {

@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
         if let Some(codec) = compression(primitive) {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
-        let (used, mut indices) = self.corners(primitive, positions.value(), mode)?;
+        let Corners { used, triangles: mut indices } = self.corners(primitive, positions.value(), mode)?;
         let positions = self.accessors.vectors(positions.value(), used.as_deref())?;
         indices.retain(|&triangle| area_vector(&positions, triangle) != DVec3::ZERO);
         if indices.is_empty() {
@@ -68,14 +68,9 @@ impl<'a> Reader<'a> {
         Ok(Some(mesh))
     }
 
-    /// The triangles of a primitive as indices into the vertices that are used: those listed, or all where there is no
-    /// list. There are never more vertices than corners, so that what is read is paid for by indices.
-    fn corners(
-        &mut self,
-        primitive: &Primitive,
-        positions: usize,
-        mode: Mode,
-    ) -> Result<(Option<Vec<u32>>, Vec<[u32; 3]>), Fault> {
+    /// The triangles of a primitive. There are never more vertices than corners, so that what is read is paid for by
+    /// indices.
+    fn corners(&mut self, primitive: &Primitive, positions: usize, mode: Mode) -> Result<Corners, Fault> {
         let count = self.accessors.count(positions)?;
         if let Some(normals) = primitive.attributes.get(&Valid(Semantic::Normals)) {
             let normals = self.accessors.count(normals.value())?;
@@ -102,7 +97,7 @@ impl<'a> Reader<'a> {
             }
             used
         });
-        Ok((used, triangles(&corners, mode)))
+        Ok(Corners { used, triangles: triangles(&corners, mode) })
     }
 
     fn charge(&mut self, corners: usize, mode: Mode) -> Result<(), Fault> {
@@ -111,6 +106,14 @@ impl<'a> Reader<'a> {
         self.budget = self.budget.checked_sub(triangles.saturating_mul(TRIANGLE_BYTES)).ok_or_else(over)?;
         Ok(())
     }
+}
+
+/// What a primitive makes of its vertices.
+struct Corners {
+    /// The vertices that are read, in order; all of them where there is no list.
+    used: Option<Vec<u32>>,
+    /// Of vertices by their place among those that are read.
+    triangles: Vec<[u32; 3]>,
 }
 
 /// The extension that a primitive's data is compressed with.
