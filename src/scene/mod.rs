@@ -16,6 +16,8 @@ mod notices;
 mod outline;
 mod rig;
 mod settings;
+#[cfg(test)]
+mod tests;
 
 use glam::Vec3;
 

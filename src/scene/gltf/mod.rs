@@ -13,6 +13,7 @@ mod json;
 mod materials;
 mod nodes;
 mod primitives;
+mod references;
 #[cfg(test)]
 mod tests;
 

@@ -35,6 +35,48 @@ impl Builder {
         file
     }
 
+    /// The square with a sheen, a camera that sees it and a lamp above: nothing is left to add, and nothing to note.
+    pub fn studio() -> Self {
+        let mut file = Self::square();
+        let sheen = json!({ "sheenColorFactor": [1.0, 0.5, 0.25], "sheenRoughnessFactor": 0.5 });
+        file.json["materials"][0]["extensions"] = json!({ "KHR_materials_sheen": sheen });
+        let perspective = json!({ "yfov": 0.8, "znear": 0.1, "zfar": 100.0 });
+        file.push("cameras", json!({ "name": "eye", "type": "perspective", "perspective": perspective }));
+        file.push("nodes", json!({ "name": "tripod", "camera": 0, "translation": [0.0, 0.0, 5.0] }));
+        let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, y]| Vec3::new(x, y, 3.0));
+        let strength = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 4.0 } });
+        let metal = json!({ "metallicFactor": 0 });
+        let mut glowing = json!({ "name": "glow", "pbrMetallicRoughness": metal, "extensions": strength });
+        glowing["emissiveFactor"] = json!([1.0, 1.0, 1.0]);
+        let material = file.push("materials", glowing);
+        let mesh = file.mesh(&corners, None, &[0, 1, 2, 0, 2, 3], Some(material));
+        file.json["meshes"][mesh]["name"] = json!("bulb");
+        let rotation = [0.0, 0.0, 0.6, 0.8];
+        file.push("nodes", json!({ "name": "lamp", "mesh": mesh, "rotation": rotation, "scale": [1.0, 1.0, 1.0] }));
+        file.json["scenes"] = json!([{ "nodes": [0, 1, 2] }]);
+        file.json["scene"] = json!(0);
+        file
+    }
+
+    /// Sets the member or element at a JSON pointer, whose parent there must be, or is made as an object.
+    pub fn set(&mut self, pointer: &str, value: Value) {
+        let mut place = &mut self.json;
+        for key in pointer.split('/').skip(1) {
+            place = match place {
+                Value::Array(elements) => &mut elements[key.parse::<usize>().unwrap()],
+                _ => &mut place[key],
+            };
+        }
+        *place = value;
+    }
+
+    /// Overwrites the bytes of an accessor's element.
+    pub fn poke(&mut self, accessor: usize, offset: usize, bytes: &[u8]) {
+        let view = self.json["accessors"][accessor]["bufferView"].as_u64().unwrap() as usize;
+        let start = self.json["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize + offset;
+        self.bytes[start..start + bytes.len()].copy_from_slice(bytes);
+    }
+
     /// Adds to one of the root's lists; gives the index.
     pub fn push(&mut self, list: &str, value: Value) -> usize {
         let list = self.json[list].as_array_mut().unwrap();

@@ -4,3 +4,4 @@ mod builder;
 mod files;
 mod hostile;
 mod reads;
+mod values;

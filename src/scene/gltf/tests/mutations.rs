@@ -1,0 +1,126 @@
+//! Good files, changed at random: each gives a whole scene or an error in one line, in no time.
+
+use std::time::{Duration, Instant};
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg32;
+use serde_json::{Value, json};
+
+use super::builder::{Builder, glb, read};
+
+/// Reads `bytes`; `read` checks the scene. Tells whether there is one.
+fn survives(bytes: &[u8]) -> bool {
+    let start = Instant::now();
+    let read = read(bytes);
+    // A thousandth of a second is usual; the room is for machines that do other things beside.
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    if let Err(error) = &read {
+        assert_eq!(error.lines().count(), 1, "{error}");
+        assert!(error.len() < 1000, "{error}");
+    }
+    read.is_ok()
+}
+
+#[test]
+fn changed_bytes() {
+    let mut random = Pcg32::seed_from_u64(1);
+    let good = Builder::studio().glb();
+    let mut read = 0;
+    const ROUNDS: usize = 4000;
+    for _ in 0..ROUNDS {
+        let mut bytes = good.clone();
+        for _ in 0..random.random_range(1..4) {
+            let at = random.random_range(0..bytes.len());
+            match random.random_range(0..4) {
+                0 => bytes[at] ^= 1 << random.random_range(0..8),
+                1 => bytes[at] = random.random(),
+                2 => bytes.truncate(at + 1),
+                _ => drop(bytes.splice(at..at, [random.random(), random.random()])),
+            }
+        }
+        read += usize::from(survives(&bytes));
+    }
+    // Both ends are met.
+    assert!(read > ROUNDS / 100 && read < ROUNDS / 2, "{read} of {ROUNDS} are read");
+}
+
+#[test]
+fn changed_bytes_of_the_buffer() {
+    let mut random = Pcg32::seed_from_u64(2);
+    let file = Builder::studio();
+    let json = file.json.to_string();
+    let mut read = 0;
+    const ROUNDS: usize = 4000;
+    for _ in 0..ROUNDS {
+        let mut bytes = file.bytes.clone();
+        for _ in 0..random.random_range(1..6) {
+            let at = random.random_range(0..bytes.len());
+            bytes[at] = random.random();
+        }
+        read += usize::from(survives(&glb(json.as_bytes(), &bytes)));
+    }
+    assert!(read > ROUNDS / 10 && read < ROUNDS, "{read} of {ROUNDS} are read");
+}
+
+#[test]
+fn changed_values() {
+    let mut random = Pcg32::seed_from_u64(3);
+    let file = Builder::studio();
+    let mut pointers = Vec::new();
+    collect(&file.json, String::new(), &mut pointers);
+    let mut read = 0;
+    const ROUNDS: usize = 6000;
+    for _ in 0..ROUNDS {
+        let mut json = file.json.clone();
+        for _ in 0..random.random_range(1..3) {
+            let pointer = &pointers[random.random_range(0..pointers.len())];
+            change(&mut json, pointer, &mut random);
+        }
+        read += usize::from(survives(&glb(json.to_string().as_bytes(), &file.bytes)));
+    }
+    assert!(read > ROUNDS / 100 && read < ROUNDS / 2, "{read} of {ROUNDS} are read");
+}
+
+/// The JSON pointers of all values below the root.
+fn collect(value: &Value, pointer: String, pointers: &mut Vec<String>) {
+    match value {
+        Value::Object(members) => {
+            members.iter().for_each(|(key, member)| collect(member, format!("{pointer}/{key}"), pointers));
+        }
+        Value::Array(elements) => {
+            elements.iter().enumerate().for_each(|(at, element)| collect(element, format!("{pointer}/{at}"), pointers));
+        }
+        _ => {}
+    }
+    if !pointer.is_empty() {
+        pointers.push(pointer);
+    }
+}
+
+/// Changes or removes the value at a pointer, if it is still there.
+fn change(json: &mut Value, pointer: &str, random: &mut Pcg32) {
+    let (parent, key) = pointer.rsplit_once('/').unwrap();
+    let wild = [-1.0, 0.5, 1.5, 1e-40, 1e20, 1e38, 1e39, -1e300][random.random_range(0..8)];
+    let number: u64 = [0, 1, 2, 5, 255, u32::MAX.into(), 1 << 32, u64::MAX][random.random_range(0..8)];
+    let new = match random.random_range(0..8) {
+        0 => json!(wild),
+        1 | 2 => json!(number),
+        3 => json!("a\nword"),
+        4 => json!(null),
+        5 => json!([]),
+        6 => json!({}),
+        _ => match json.pointer_mut(parent) {
+            Some(Value::Object(members)) => return drop(members.remove(key)),
+            Some(Value::Array(elements)) => {
+                let at = key.parse::<usize>().unwrap();
+                return if at < elements.len() {
+                    drop(elements.remove(at))
+                };
+            }
+            _ => return,
+        },
+    };
+    if let Some(value) = json.pointer_mut(pointer) {
+        *value = new;
+    }
+}
