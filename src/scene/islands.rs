@@ -16,10 +16,8 @@ use super::{Bounds, Instance, Mesh, Polygon};
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Half the thickness of an island, relative to the diagonal of its bounding box.
 const PLANE_TOLERANCE: f64 = 1e-3;
-/// Cosine of the sharpest edge (60 degrees) within an island: noise well within the plane's tolerance may turn the faces
-/// of a finely divided plane as far.
-const FACING_COSINE: f64 = 0.5;
-/// Cosine of the sharpest edge (3 degrees) within an island of a patch that is not planar as a whole.
+/// Cosine of the sharpest edge (3 degrees) across which triangles are taken for parts of one plane without a look at
+/// the plane: well above the noise of rounded positions in finely divided planes.
 const SMOOTH_COSINE: f64 = 0.9986;
 /// Edges with more triangles than this join none: where honest meshes have two, hostile ones have a million.
 const EDGE_USES_MAX: usize = 8;
@@ -61,7 +59,8 @@ impl Topology {
         let world_from_mesh = DAffine3::from_mat4(instance.world_from_mesh.as_dmat4());
         let positions = mesh.positions.iter().map(|position| world_from_mesh.transform_point3(position.as_dvec3()));
         let positions: Vec<DVec3> = positions.collect();
-        let turned = |&[a, b, c]: &[u32; 3]| if instance.mirrors() { [a, c, b] } else { [a, b, c] };
+        let mirrored = world_from_mesh.matrix3.determinant() < 0.0;
+        let turned = |&[a, b, c]: &[u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
         let triangles: Vec<[u32; 3]> = self.triangles.iter().map(turned).collect();
         let faces = triangles.iter().map(|&corners| {
             let [a, b, c] = corners.map(|corner| positions[corner as usize]);
@@ -172,42 +171,14 @@ struct Placed<'a> {
 impl Placed<'_> {
     fn polygons(&self, limit: usize) -> Option<Vec<Polygon>> {
         let mut taken = vec![false; self.triangles.len()];
-        let mut islands = Vec::new();
+        let mut polygons = Vec::new();
         for seed in 0..self.triangles.len() as u32 {
-            let patch = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > FACING_COSINE);
-            self.part(patch, &mut islands, limit)?;
-        }
-        Some(islands.iter().filter_map(|island| self.polygon(island)).collect())
-    }
-
-    /// Parts triangles that hang together into islands: where not all of them lie in one plane, the smooth parts
-    /// between sharp edges may. None where there are more than `limit`.
-    fn part(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
-        if self.is_planar(&patch) {
-            // An empty one is no island.
-            islands.extend(Some(patch).filter(|patch| !patch.is_empty()));
-            return (islands.len() <= limit).then_some(());
-        }
-        let mut taken = self.all_taken_but(&patch);
-        for &seed in &patch {
             let smooth = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > SMOOTH_COSINE);
-            if self.is_planar(&smooth) {
-                islands.extend(Some(smooth).filter(|smooth| !smooth.is_empty()));
-            } else {
-                self.split(smooth, islands, limit)?;
-            }
-            if islands.len() > limit {
-                return None;
+            for island in self.split(smooth, limit.checked_sub(polygons.len())?)? {
+                polygons.extend(self.polygon(&island));
             }
         }
-        Some(())
-    }
-
-    /// Nothing but `patch` is open to growth.
-    fn all_taken_but(&self, patch: &[u32]) -> Vec<bool> {
-        let mut taken = vec![true; self.triangles.len()];
-        patch.iter().for_each(|&triangle| taken[triangle as usize] = false);
-        taken
+        (polygons.len() <= limit).then_some(polygons)
     }
 
     fn cosine(&self, left: u32, right: u32) -> f64 {
@@ -233,20 +204,32 @@ impl Placed<'_> {
         grown
     }
 
-    /// Parts a curved patch into planes, each grown from the largest triangle that is left. None where there are more
-    /// than `limit` islands.
-    fn split(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
-        let mut taken = self.all_taken_but(&patch);
-        let mut seeds = patch;
+    /// The planar parts of a smooth one: all of it where it can be, else grown from the largest triangle that is left.
+    /// None where there are more than `limit`.
+    fn split(&self, smooth: Vec<u32>, limit: usize) -> Option<Vec<Vec<u32>>> {
+        if smooth.is_empty() {
+            return Some(Vec::new());
+        }
+        if self.is_planar(&smooth) {
+            return (limit > 0).then(|| vec![smooth]);
+        }
+        let mut seeds = smooth;
         let area = |triangle: &u32| self.faces[*triangle as usize].area.length_squared();
         seeds.sort_by(|left, right| area(right).total_cmp(&area(left)).then(left.cmp(right)));
+        // Nothing but the part itself is open to growth.
+        let mut taken = vec![true; self.triangles.len()];
+        seeds.iter().for_each(|&triangle| taken[triangle as usize] = false);
+        let mut islands = Vec::new();
         for &seed in &seeds {
-            islands.extend(Some(self.grow_plane(seed, &mut taken)).filter(|island| !island.is_empty()));
+            let island = self.grow_plane(seed, &mut taken);
+            if !island.is_empty() {
+                islands.push(island);
+            }
             if islands.len() > limit {
                 return None;
             }
         }
-        Some(())
+        Some(islands)
     }
 
     /// Grows through triangles that lie in the plane of `seed`, to the tolerance of what has grown so far.

@@ -25,7 +25,6 @@ pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
         }
         triangles += mesh.indices.len() / 3;
         if triangles > TRIANGLES_MAX {
-            triangles -= mesh.indices.len() / 3;
             notices.add("emitters past 8388608 triangles glow but light nothing", || instance.name.clone());
             continue;
         }

@@ -12,11 +12,6 @@ const RIM_LEVEL: f32 = 0.9;
 /// From the subject's middle, in its radii: out of the frame of a camera that frames the subject.
 const DISTANCE: f32 = 3.5;
 
-/// Pictures wider than this, relative to their height, may show a light of the rig.
-const ASPECT: f32 = 2.0;
-/// How many sizes of the rig are tried for one that the camera does not see.
-const SIZES: usize = 6;
-
 /// One rectangle of the rig. It faces the subject.
 struct Panel {
     name: &'static str,
@@ -31,7 +26,7 @@ struct Panel {
 const PANELS: [Panel; 3] = [
     Panel { name: "key", direction: Vec3::new(-0.75, 0.55, 0.6), half_size: [1.0, 1.0], level: KEY_LEVEL },
     Panel { name: "fill", direction: Vec3::new(0.95, 0.1, 0.5), half_size: [0.8, 1.4], level: FILL_LEVEL },
-    Panel { name: "rim", direction: Vec3::new(0.35, 0.95, -0.35), half_size: [1.2, 0.4], level: RIM_LEVEL },
+    Panel { name: "rim", direction: Vec3::new(0.35, 0.85, -0.45), half_size: [1.2, 0.4], level: RIM_LEVEL },
 ];
 
 const CORNERS: [Vec3; 4] =

@@ -1,5 +1,7 @@
 //! Typed reading of accessors, every range checked.
 
+use std::rc::Rc;
+
 use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;

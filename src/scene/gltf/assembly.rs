@@ -15,9 +15,8 @@ use crate::scene::{Bounds, Instance, Material, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
-/// Metres from the origin within which things stand: beyond the Moon, and with lights set up around them the cube of all
-/// distances fits in 32-bit floats.
-const REACH: f64 = 1e10;
+/// Metres from the origin within which things stand: beyond Saturn, and the cube of it fits in 32-bit floats.
+const REACH: f64 = 1e12;
 /// A transform whose axes, made unit, span less than this much volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
 /// Shortest axis of a transform: the square of anything shorter is nothing in 32-bit floats.
@@ -59,7 +58,6 @@ impl<'a> Assembly<'a> {
             for &(mesh, bounds) in &self.meshes[&mesh.value()] {
                 check_reach(world_from_node, bounds.min.abs().max(bounds.max.abs())).map_err(wrong)?;
                 if is_singular(world_from_node) {
-                    self.notices.add("things scaled to nothing are not drawn", || node_label(self.root, index));
                     continue;
                 }
                 if self.scene.instances.len() == INSTANCES_MAX {
@@ -110,7 +108,7 @@ pub fn check_reach(world_from_node: DAffine3, extent: Vec3) -> Result<(), String
     let values = [reach, x, y, z].into_iter().flat_map(|vector| vector.to_array());
     match values.into_iter().find(|value| value.is_nan() || *value > REACH) {
         None => Ok(()),
-        Some(value) => Err(format!("reaches {value:.2e} m in the world; bring it within {REACH:e} m of the origin")),
+        Some(value) => Err(format!("reaches {value:e} m in the world; bring it within {REACH:e} m of the origin")),
     }
 }
 

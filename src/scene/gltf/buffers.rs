@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
-use std::ops::Deref;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
@@ -18,27 +17,6 @@ use crate::scene::error::label;
 
 /// The most that is read from one file: what a .glb can say of its own length.
 const FILE_BYTES_MAX: u64 = u32::MAX as u64;
-
-/// The most memory that is asked for on a file system's word alone.
-const RESERVE_MAX: u64 = 1 << 28;
-
-/// A buffer's bytes.
-pub enum Bytes<'a> {
-    /// In the .glb itself.
-    Within(&'a [u8]),
-    Read(Rc<Vec<u8>>),
-}
-
-impl Deref for Bytes<'_> {
-    type Target = [u8];
-
-    fn deref(&self) -> &[u8] {
-        match self {
-            Self::Within(bytes) => bytes,
-            Self::Read(bytes) => bytes,
-        }
-    }
-}
 
 /// Reads a file that must be an ordinary one: no folder, and nothing that never ends.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
@@ -54,23 +32,22 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
         let length = metadata.len();
         return Err(Fault::new(format_args!("{length} bytes long; files of up to {FILE_BYTES_MAX} are served")));
     }
-    // What is said to be long need not be: room is made for so much at first, and for more as it comes.
-    let mut bytes = Vec::with_capacity(metadata.len().min(RESERVE_MAX) as usize);
+    let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(FILE_BYTES_MAX).read_to_end(&mut bytes)).map_err(unreadable)?;
     Ok(bytes)
 }
 
 /// The bytes of every buffer, each as long as the file says. `folder` is where external ones stand; without one there
 /// are none.
-pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<Bytes<'a>>, Fault> {
+pub fn load(document: &Document, folder: Option<&Path>) -> Result<Vec<Rc<[u8]>>, Fault> {
     // The same file may stand behind many buffers: its bytes are held once.
     let mut files = HashMap::new();
     let mut buffers = Vec::with_capacity(document.root.buffers.len());
     for (index, buffer) in document.root.buffers.iter().enumerate() {
         let place = || label("buffer", index, buffer.name.as_deref());
         let bytes = match (&buffer.uri, document.binary) {
-            (Some(uri), _) => Bytes::Read(fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?),
-            (None, Some(binary)) if index == 0 => Bytes::Within(binary),
+            (Some(uri), _) => fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?,
+            (None, Some(binary)) if index == 0 => binary.into(),
             (None, _) => {
                 let what = "has no data (no URI; a compressed one perhaps); export the file without compression";
                 return Err(Fault::at(place(), what));
@@ -86,16 +63,16 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
     Ok(buffers)
 }
 
-fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<Vec<u8>>>) -> Result<Rc<Vec<u8>>, Fault> {
+fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<[u8]>>) -> Result<Rc<[u8]>, Fault> {
     if let Some(data) = uri.strip_prefix("data:") {
-        return decode(data).map(Rc::new);
+        return decode(data).map(Into::into);
     }
     let path = resolve(uri, folder)?;
     let identity = path.canonicalize().unwrap_or_else(|_| path.clone());
     if let Some(bytes) = files.get(&identity) {
         return Ok(Rc::clone(bytes));
     }
-    let bytes = Rc::new(read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?);
+    let bytes: Rc<[u8]> = read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?.into();
     files.insert(identity, Rc::clone(&bytes));
     Ok(bytes)
 }

@@ -57,12 +57,8 @@ fn split_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Result<(&'a [u8], &'a [u8
         let what = format_args!("the .glb holds a chunk '{found}' in the place of '{name}'; export it again");
         return Err(Fault::new(what));
     }
-    let length = le_u32(&header[..4]) as usize;
-    if !length.is_multiple_of(4) {
-        let what = format_args!("the .glb's {name} chunk is {length} bytes long, no multiple of 4; export it again");
-        return Err(Fault::new(what));
-    }
-    bytes[CHUNK_HEADER..].split_at_checked(length).ok_or_else(cut)
+    let rest = &bytes[CHUNK_HEADER..];
+    rest.split_at_checked(le_u32(&header[..4]) as usize).ok_or_else(cut)
 }
 
 fn le_u32(bytes: &[u8]) -> u32 {

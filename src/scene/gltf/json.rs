@@ -38,16 +38,12 @@ const NUMBERS: [&str; 3] = ["componentType", "mode", "target"];
 
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
 pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
-    let mut value: Value = serde_json::from_slice(json).map_err(|error| match is_object(json) {
-        true => Fault::new(format_args!("its JSON is broken ({error}); correct it or export the file again")),
-        false => Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file")),
-    })?;
+    let not_gltf = |error| Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file"));
+    let mut value: Value = serde_json::from_slice(json).map_err(not_gltf)?;
     let Value::Object(root) = &mut value else {
         return Err(Fault::new("not a glTF file (its JSON is no object); give a .gltf or .glb file"));
     };
     check_version(root)?;
-    // Nobody plays these, and `Root` wants more of them than glTF does.
-    root.remove("animations");
     check_counts(root)?;
     for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
         // glTF lets a scene be empty; `Root` doesn't.
@@ -58,12 +54,7 @@ pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
         prepare(&counts, key, value).map_err(|(path, what)| Fault::at(format_args!("{key}{path}"), what))?;
     }
     let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
-    serde_path_to_error::deserialize(value).map_err(wrong)
-}
-
-/// Whether text begins as a JSON object does: then it is meant to be one.
-fn is_object(json: &[u8]) -> bool {
-    json.trim_ascii_start().starts_with(b"{")
+    serde_path_to_error::deserialize(&value).map_err(wrong)
 }
 
 /// glTF 2.x, told before anything else is: a file of glTF 1 is wrong in many other ways.

@@ -5,10 +5,8 @@ use std::ops::RangeInclusive;
 
 use glam::Vec3;
 use gltf::json::material::AlphaMode;
-use gltf::json::texture::{Info, Texture};
 use gltf::json::validation::Checked;
-use gltf::json::{self, Index, Root};
-use serde::Deserialize;
+use gltf::json::{self, Root};
 use serde_json::Value;
 
 use super::Fault;
@@ -73,10 +71,6 @@ fn read_sheen(value: &Value) -> Result<Sheen, String> {
             number(value).ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", brief(value)))?
         }
     };
-    for name in SHEEN_TEXTURES {
-        let broken = |error| format!("{name} is broken ({error}); correct it");
-        members.get(name).map(texture).transpose().map_err(broken)?;
-    }
     let color = Vec3::from(in_unit("sheenColorFactor", color)?);
     let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
     Ok(Sheen { color, roughness })
@@ -100,27 +94,6 @@ fn in_range<const N: usize>(name: &str, values: [f32; N], range: RangeInclusive<
     }
 }
 
-/// The textures of a material by their members' names.
-pub fn textures(material: &json::Material) -> Vec<(&'static str, Index<Texture>)> {
-    let pbr = &material.pbr_metallic_roughness;
-    let sheen = material.extensions.as_ref().and_then(|extensions| extensions.others.get(SHEEN));
-    let of_sheen = |name| sheen.and_then(|sheen| texture(sheen.get(name)?).ok());
-    let textures = [
-        ("baseColorTexture", pbr.base_color_texture.as_ref().map(|texture| texture.index)),
-        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.as_ref().map(|texture| texture.index)),
-        ("normalTexture", material.normal_texture.as_ref().map(|texture| texture.index)),
-        ("occlusionTexture", material.occlusion_texture.as_ref().map(|texture| texture.index)),
-        ("emissiveTexture", material.emissive_texture.as_ref().map(|texture| texture.index)),
-        (SHEEN_TEXTURES[0], of_sheen(SHEEN_TEXTURES[0])),
-        (SHEEN_TEXTURES[1], of_sheen(SHEEN_TEXTURES[1])),
-    ];
-    textures.into_iter().filter_map(|(name, texture)| Some((name, texture?))).collect()
-}
-
-fn texture(value: &Value) -> Result<Index<Texture>, serde_json::Error> {
-    Info::deserialize(value).map(|info| info.index)
-}
-
 /// Notes what of a material is not drawn.
 fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Notices) {
     let pbr = &material.pbr_metallic_roughness;
@@ -135,7 +108,7 @@ fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Not
     for (texture, _) in textures.iter().filter(|(_, there)| *there) {
         notices.add(TEXTURES, || format!("{texture} of {}", place()));
     }
-    if material.pbr_metallic_roughness.metallic_factor.0 > 0.0 {
+    if pbr.metallic_factor.0 > 0.0 {
         notices.add("metals are drawn with their base color as a diffuse one", place);
     }
     if !matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {

@@ -13,7 +13,6 @@ mod json;
 mod materials;
 mod nodes;
 mod primitives;
-mod references;
 #[cfg(test)]
 mod tests;
 

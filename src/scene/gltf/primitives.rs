@@ -113,14 +113,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What a primitive makes of its vertices.
-struct Corners {
-    /// The vertices that are read, in order; all of them where there is no list.
-    used: Option<Vec<u32>>,
-    /// Of vertices by their place among those that are read.
-    triangles: Vec<[u32; 3]>,
-}
-
 /// The extension that a primitive's data is compressed with.
 fn compression(primitive: &Primitive) -> Option<&str> {
     let names = primitive.extensions.as_ref()?.others.keys();
@@ -152,8 +144,6 @@ fn area_vector(positions: &[Vec3], [a, b, c]: [u32; 3]) -> DVec3 {
 fn flatten(mesh: &mut Mesh) {
     let corners = std::mem::take(&mut mesh.indices);
     let positions = std::mem::take(&mut mesh.positions);
-    mesh.positions.reserve_exact(corners.len());
-    mesh.normals.reserve_exact(corners.len());
     for triangle in corners.chunks_exact(3) {
         let triangle = [triangle[0], triangle[1], triangle[2]];
         let normal = area_vector(&positions, triangle).normalize().as_vec3();

@@ -3,5 +3,5 @@
 mod builder;
 mod files;
 mod hostile;
+mod mutations;
 mod reads;
-mod values;
