@@ -12,24 +12,26 @@ import numpy as np
 from numba import njit
 
 GRAVITY = 9.81
+# How near layers come to each other, in cells: well over a cell's half diagonal (0.71), so that no vertex slips through between
+# others.
+GAP = 0.85
 # Two cells may close to this part of their length, a turn of 2 acos(0.85) = 64 degrees from cell to cell.
 SHARPEST = 0.85
 
 
 @dataclass
 class Fabric:
-    """SI units: kg/m2, N/m, N/m, N m, then friction coefficients, and in 1/s air drag and the rate at which
-    neighbours share their velocity."""
+    """A middling velvet; its bending length (bending / (density g))^(1/3) is 2.7 cm."""
 
-    density: float = 0.4
-    stretch: float = 1500.0
-    shear: float = 25.0
-    bending: float = 5e-5
+    density: float = 0.4  # kg/m2
+    stretch: float = 1500.0  # N/m
+    shear: float = 15.0  # N/m
+    bending: float = 8e-5  # N m
     friction_form: float = 0.5
     friction_self: float = 0.3
-    drag: float = 1.5
-    viscosity: float = 20.0
-    clearance: float = 0.006
+    drag: float = 1.5  # of the air, 1/s
+    viscosity: float = 20.0  # the rate at which neighbours share their velocity, 1/s
+    clearance: float = 0.006  # of the sheet's middle from the form, m
 
 
 @njit
@@ -144,7 +146,7 @@ def near_pairs(x, flat, reach, apart):
     for v in range(count):
         order[fill[key[v]]] = v
         fill[key[v]] += 1
-    pairs = np.empty((count * 24, 2), np.int32)
+    pairs = np.empty((count * 64, 2), np.int32)
     found = 0
     for v in range(count):
         for dx in range(-1, 2):
@@ -161,7 +163,9 @@ def near_pairs(x, flat, reach, apart):
                         d = 0.0
                         for c in range(3):
                             d += (x[u, c] - x[v, c]) ** 2
-                        if d < reach * reach and found < len(pairs):
+                        if d < reach * reach:
+                            if found == len(pairs):
+                                raise RuntimeError("more pairs than there is room for")
                             pairs[found, 0] = v
                             pairs[found, 1] = u
                             found += 1
@@ -241,7 +245,9 @@ def calm_contacts(x, velocity, pairs, gap):
 
 
 @njit
-def advance(x, velocity, flat, rest, n, h, dt, steps, form, density, stretch, shear, bending, gap, frictions, drag, viscosity, clearance):
+def advance(
+    x, velocity, flat, rest, n, h, dt, steps, form, density, stretch, shear, bending, gap, frictions, drag, viscosity, clearance
+):
     """`steps` substeps of length `dt`, in place."""
     weight = 1.0 / (density * h * h)
     soft_stretch, soft_shear = 1.0 / (stretch * dt * dt), 1.0 / (shear * dt * dt)
@@ -280,11 +286,10 @@ def drop(x, velocity, flat, form, fabric, seconds, dt):
     rest[2, :-1, :-1] = np.linalg.norm(flat[1:, :-1] - flat[:-1, 1:], axis=-1)
     rest[3, :-1, :-1] = np.linalg.norm(flat[1:, 1:] - flat[:-1, :-1], axis=-1)
     h = rest[0, :, :-1].mean()
-    # Wider than a cell's half diagonal (0.71 h), so that no vertex slips through the sheet between others.
-    gap = 0.85 * h
     advance(
-        x, velocity, flat.reshape(-1, 2), rest.reshape(4, -1), n, h, dt, int(round(seconds / dt)), form, fabric.density, fabric.stretch, fabric.shear,
-        fabric.bending, gap, (fabric.friction_form, fabric.friction_self), fabric.drag, fabric.viscosity, fabric.clearance,
+        x, velocity, flat.reshape(-1, 2), rest.reshape(4, -1), n, h, dt, int(round(seconds / dt)), form,
+        fabric.density, fabric.stretch, fabric.shear, fabric.bending, GAP * h,
+        (fabric.friction_form, fabric.friction_self), fabric.drag, fabric.viscosity, fabric.clearance,
     )
 
 
@@ -300,3 +305,68 @@ def refine(values, n):
 
     grid = values.reshape(n, n, 3)
     return along_first(along_first(grid).swapaxes(0, 1)).swapaxes(0, 1).reshape(-1, 3).copy()
+
+
+def smooth(vertices, normals, n, passes):
+    """Takes out ripples as fine as the grid and keeps what is wider: Taubin's pairs of Laplacian steps (1995) along rows and
+    columns, of which the part along `normals` is taken, so that no vertex slides in the sheet."""
+    grid = vertices.reshape(n, n, 3).copy()
+    for step in (0.5, -0.52) * passes:
+        for axis in (0, 1):
+            g = np.moveaxis(grid, axis, 0)
+            g[1:-1] += step * (0.5 * (g[:-2] + g[2:]) - g[1:-1])
+    change = np.einsum("ij,ij->i", grid.reshape(-1, 3) - vertices, normals)
+    return vertices + change[:, None] * normals
+
+
+def lift(vertices, form, clearance):
+    """Moves what is nearer to the form than `clearance` out to it."""
+    rest_on_form(vertices, vertices.copy(), form, clearance, 0.0)
+
+
+@njit
+def crosses(p, q, a, b, c):
+    """Whether the segment pq passes through the triangle abc (Moeller and Trumbore 1997)."""
+    d, e, f = q - p, b - a, c - a
+    h = np.cross(d, f)
+    volume = np.dot(e, h)
+    if abs(volume) < 1e-18:
+        return False
+    s = p - a
+    u = np.dot(s, h) / volume
+    if u < 0.0 or u > 1.0:
+        return False
+    k = np.cross(s, e)
+    v = np.dot(d, k) / volume
+    if v < 0.0 or u + v > 1.0:
+        return False
+    t = np.dot(f, k) / volume
+    return 0.0 <= t <= 1.0
+
+
+@njit
+def count_crossings(x, triangles, flat, reach):
+    """How many pairs of a grid edge and a triangle without a vertex in common pass through each other. No edge
+    is longer than `reach`."""
+    centres = np.empty((len(triangles), 3))
+    flat_centres = np.empty((len(triangles), 2))
+    for t in range(len(triangles)):
+        for c in range(3):
+            centres[t, c] = (x[triangles[t, 0], c] + x[triangles[t, 1], c] + x[triangles[t, 2], c]) / 3.0
+        for c in range(2):
+            flat_centres[t, c] = (flat[triangles[t, 0], c] + flat[triangles[t, 1], c] + flat[triangles[t, 2], c]) / 3.0
+    # Two triangles that touch have centres within 4/3 of the longest edge of each other.
+    pairs = near_pairs(centres, flat_centres, 4.0 / 3.0 * reach, 0.0)
+    found = 0
+    for k in range(len(pairs)):
+        for one, other in ((pairs[k, 0], pairs[k, 1]), (pairs[k, 1], pairs[k, 0])):
+            shared = False
+            for i in range(3):
+                for j in range(3):
+                    shared = shared or triangles[one, i] == triangles[other, j]
+            if shared:
+                continue
+            a, b, c = x[triangles[other, 0]], x[triangles[other, 1]], x[triangles[other, 2]]
+            for i in range(3):
+                found += crosses(x[triangles[one, i]], x[triangles[one, (i + 1) % 3]], a, b, c)
+    return found

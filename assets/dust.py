@@ -10,38 +10,40 @@ import numpy as np
 
 import glb
 
-ALONG, AROUND = 360, 60
-RING = 0.36
-LEAN = np.radians(-24.0)
+# Vertices along the ring and around its cross-section.
+ALONG, AROUND = 340, 72
+# Of the cross-section on the way round. A multiple of a third that isn't whole: the three keels are one edge, three times round.
+TURNS = -5.0 / 3.0
+# From the ring's middle to its cross-section's (metres), how far the keels reach from there, and by which part more below.
+RING, THICKNESS, GROWTH = 0.33, 0.19, 0.25
+# How deep the form is let into the plinth, and how it is turned to the camera.
+SUNK, YAW = 0.025, np.radians(-24.0)
 PLINTH_HEIGHT, PLINTH_RADIUS, PLINTH_EDGE = 0.16, 0.34, 0.018
 
 
-def profile(psi):
-    """Distance of the outline from the middle of its cross-section at the angle psi: three keels with hollow flanks between. An
-    exact keel, (cos)^(1/2)-like, is rounded to a radius of millimetres by the small constant, so that normals exist."""
-    s = np.sin(1.5 * psi)
+def profile(v):
+    """The outline of the cross-section, as a distance from its middle at the angle v: three keels at multiples of 2 pi/3, hollow
+    flanks between. |sin| alone would end in an edge without a normal; the small constant rounds it to millimetres."""
+    s = np.sin(1.5 * v)
     return 1.0 - 0.62 * np.sqrt(s * s + 0.0025) + 0.05 * s * s
 
 
 def surface(u, v):
-    """The form: u goes along the ring, v around its cross-section, both in [0, 2 pi]. The cross-section turns by a third of a turn
-    on the way round, so that its three keels are one; it is thicker below than above."""
-    thickness = 0.15 * (1.0 - 0.3 * np.cos(u))
-    psi = v
-    r = thickness * profile(psi)
-    turn = psi + u / 3.0
+    """The form: u goes along the ring from its top, v around its cross-section, both in [0, 2 pi]. The ring stands upright in the
+    plane z = 0."""
+    r = THICKNESS * (1.0 - GROWTH * np.cos(u)) * profile(v)
+    turn = v + TURNS * u
     out, side = r * np.cos(turn), 0.85 * r * np.sin(turn)
-    # u = 0 is the top of the ring, which stands upright.
     return np.stack([(RING + out) * np.sin(u), (RING + out) * np.cos(u), side], axis=-1)
 
 
 def ring():
-    """Vertices, normals (by central differences of the formula) and triangles of the form; closed: the last row is joined to the
-    first a third of the way round."""
+    """Vertices, normals (central differences of the formula) and triangles of the form. It is closed: the last row is joined to the
+    first."""
     u = 2 * np.pi * np.arange(ALONG) / ALONG
     # Closer together at the keels, v = 0, 2 pi/3, 4 pi/3, where the outline turns.
     t = 2 * np.pi * np.arange(AROUND) / AROUND
-    v = t - 0.28 * np.sin(3 * t)
+    v = t - 0.24 * np.sin(3 * t)
     u, v = np.meshgrid(u, v, indexing="ij")
     step = 1e-5
     du = surface(u + step, v) - surface(u - step, v)
@@ -49,61 +51,77 @@ def ring():
     normals = np.cross(dv, du)
     normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
     triangles = glb.grid_triangles(ALONG, AROUND, wrap_rows=True, wrap_columns=True)
-    # Across the seam v is a third of a turn on: the vertex (ALONG, j) is (0, j + AROUND / 3).
+    # Across the seam v is TURNS turns on: the vertex (ALONG, j) is (0, j + TURNS * AROUND).
     seam = triangles.reshape(ALONG, -1, 3)[-1]
     first = seam < AROUND
-    seam[first] = (seam[first] + AROUND // 3) % AROUND
+    seam[first] = (seam[first] + round(TURNS * AROUND)) % AROUND
     return surface(u, v).reshape(-1, 3), normals.reshape(-1, 3), triangles[:, ::-1]
 
 
-def turned(points, normals, segments):
-    """A surface of revolution about y from an outline (radius, y) and its normals."""
-    angle = 2 * np.pi * np.arange(segments) / segments
-    c, s = np.cos(angle), np.sin(angle)
-
-    def spin(p):
-        return np.stack([np.outer(p[:, 0], s), np.tile(p[:, 1:], segments), np.outer(p[:, 0], c)], axis=-1).reshape(-1, 3)
-
-    return spin(points), spin(normals), glb.grid_triangles(len(points), segments, wrap_columns=True)[:, ::-1]
-
-
 def plinth(segments=160, arc=8):
-    """A drum with a rounded edge and a flat top."""
+    """A drum with a rounded edge: its outline (radius, y) turned about the y axis, and a vertex in the middle of the top."""
     angle = np.linspace(0, np.pi / 2, arc + 1)
-    inner = PLINTH_RADIUS - PLINTH_EDGE
-    points = np.concatenate([
-        [(PLINTH_RADIUS, 0.0)],
-        np.column_stack([inner + PLINTH_EDGE * np.cos(angle), PLINTH_HEIGHT - PLINTH_EDGE * (1 - np.sin(angle))]),
-        [(1e-4, PLINTH_HEIGHT)],
-    ])
-    normals = np.concatenate([[(1.0, 0.0)], np.column_stack([np.cos(angle), np.sin(angle)]), [(0.0, 1.0)]])
-    return turned(points, normals, segments)
+    inner, shoulder = PLINTH_RADIUS - PLINTH_EDGE, PLINTH_HEIGHT - PLINTH_EDGE
+    edge = np.column_stack([np.cos(angle), np.sin(angle)])
+    outline = np.concatenate([[(PLINTH_RADIUS, 0.0)], (inner, shoulder) + PLINTH_EDGE * edge])
+    normals = np.concatenate([[(1.0, 0.0)], edge])
+
+    azimuth = 2 * np.pi * np.arange(segments) / segments
+
+    def turn(p):
+        x, z = np.outer(p[:, 0], np.sin(azimuth)), np.outer(p[:, 0], np.cos(azimuth))
+        return np.stack([x, np.tile(p[:, 1:], segments), z], axis=-1).reshape(-1, 3)
+
+    rim = (len(outline) - 1) * segments + np.arange(segments)
+    top = np.column_stack([rim, np.roll(rim, -1), np.full(segments, len(outline) * segments)])
+    triangles = np.concatenate([glb.grid_triangles(len(outline), segments, wrap_columns=True)[:, ::-1], top])
+    vertices = np.concatenate([turn(outline), [(0.0, PLINTH_HEIGHT, 0.0)]])
+    return vertices, np.concatenate([turn(normals), [(0.0, 1.0, 0.0)]]), triangles
+
+
+def check(vertices, triangles):
+    """What the form must hold; the figures stand in README.md."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    edges = np.concatenate([triangles[:, (k, (k + 1) % 3)] for k in range(3)])
+    longest = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1).max()
+    print(
+        f"triangles {len(triangles)}, volume {1e3 * volume:.2f} litres, top {vertices[:, 1].max():.3f} m, "
+        f"longest edge {1e3 * longest:.1f} mm",
+        file=sys.stderr,
+    )
+    assert 30_000 <= len(triangles) <= 50_000
+    # Closed, and one way round: each edge is run through once in each direction. A ring: V - E + F = 0.
+    there, back = (set(map(tuple, e)) for e in (edges, edges[:, ::-1]))
+    assert len(there) == len(edges) and there == back
+    assert len(vertices) - len(edges) // 2 + len(triangles) == 0
+    assert volume > 0, "inside out"
+    assert longest < 0.03
+    # The cross-section doesn't reach the ring's middle, so the form can't meet itself.
+    assert THICKNESS * (1 + GROWTH) * profile(0.0) < RING
 
 
 def main(path):
     vertices, normals, triangles = ring()
-    c, s = np.cos(LEAN), np.sin(LEAN)
-    spin = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-    vertices, normals = vertices @ spin.T, normals @ spin.T
-    vertices[:, 1] += PLINTH_HEIGHT - vertices[:, 1].min() - 0.004
-    top = vertices[:, 1].max()
-    # Outwards: the volume enclosed is positive.
-    a, b, c3 = (vertices[triangles[:, k]] for k in range(3))
-    volume = np.einsum("ij,ij->i", a, np.cross(b, c3)).sum() / 6
-    print(f"triangles {len(triangles)}, volume {1e3 * volume:.2f} litres, top {top:.3f} m", file=sys.stderr)
-    assert volume > 0
-    assert 30_000 <= len(triangles) <= 50_000
-    dust = (0.9, 0.85, 0.75)
+    c, s = np.cos(YAW), np.sin(YAW)
+    turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    vertices, normals = vertices @ turn.T, normals @ turn.T
+    vertices[:, 1] += PLINTH_HEIGHT - SUNK - vertices[:, 1].min()
+    check(vertices, triangles)
+    dusty = glb.matte("dusty", (0.06, 0.05, 0.045), 0.3, sheen_color=(0.9, 0.85, 0.75), sheen_roughness=0.85)
+    floor = glb.matte("floor", (0.08, 0.082, 0.088))
+    middle = (0.0, 0.62, 0.0)
     parts = [
-        glb.Part("sculpture", vertices, normals, triangles, glb.matte("dusty", (0.06, 0.05, 0.045), 0.3, dust, 0.85)),
+        glb.Part("sculpture", vertices, normals, triangles, dusty),
         glb.Part("plinth", *plinth(), glb.matte("plinth", (0.16, 0.15, 0.14), 0.6)),
-        glb.Part("floor", *glb.backdrop(8.0, 6.0, -3.2, 6.0, 1.6), glb.matte("floor", (0.09, 0.095, 0.105))),
-        glb.polygon_light("key", glb.rectangle(1.2, 1.2), (30.0, 27.0, 23.0), (-2.0, 2.2, 2.2), (0.0, 0.6, 0.0)),
-        glb.polygon_light("rim", glb.regular_polygon(8, 0.45), (40.0, 50.0, 66.0), (1.7, 1.6, -1.6), (0.0, 0.6, 0.0)),
+        glb.Part("floor", *glb.backdrop(half_width=10.0, front=6.0, rear=-6.0, height=8.0, radius=2.5), floor),
+        glb.polygon_light("key", glb.rectangle(1.0, 1.4), (34.0, 30.0, 25.0), (-2.3, 1.9, 0.9), middle),
+        glb.polygon_light("rim", glb.regular_polygon(8, 0.45), (60.0, 75.0, 100.0), (1.7, 1.95, -1.8), middle),
+        glb.polygon_light("kicker", glb.regular_polygon(3, 0.4), (70.0, 42.0, 20.0), (-2.15, 0.95, -1.5), middle),
     ]
-    camera = glb.Camera((0.0, 1.0, 3.9), (0.0, 0.55, 0.0), np.radians(19.0))
+    camera = glb.Camera((0.0, 1.0, 4.4), (0.0, 0.58, 0.0), np.radians(18.0))
     size = glb.write(path, parts, camera, "assets/dust.py")
-    assert size < 2_000_000
+    glb.verify(path, middle)
     print(f"{path}: {size} bytes", file=sys.stderr)
 
 

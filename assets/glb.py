@@ -6,7 +6,8 @@ colours are linear Rec. 709; a light's radiance is emissiveFactor x emissiveStre
 
 import json
 import struct
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -35,7 +36,6 @@ class Camera:
     target: tuple
     yfov: float
     name: str = "camera"
-    extras: dict = field(default_factory=dict)
 
 
 def matte(name, base_color, roughness=1.0, sheen_color=None, sheen_roughness=0.0, double_sided=False):
@@ -115,18 +115,20 @@ def rectangle(width, height):
     return 0.5 * np.array([(-width, -height), (width, -height), (width, height), (-width, height)])
 
 
-def grid_triangles(rows, columns, wrap_rows=False, wrap_columns=False):
+def grid_triangles(rows, columns, wrap_rows=False, wrap_columns=False, falling=None):
     """Two triangles for each cell of a grid of rows x columns vertices, in row-major order; counter-clockwise seen from
-    cross(d/d row, d/d column). The diagonals alternate, so that no direction is favoured."""
+    cross(d/d row, d/d column). `falling` says for each cell whether its diagonal goes from (i, j) to (i+1, j+1); without it they
+    alternate, so that no direction is favoured."""
     i, j = np.meshgrid(
         np.arange(rows if wrap_rows else rows - 1), np.arange(columns if wrap_columns else columns - 1), indexing="ij"
     )
+    falling = (i + j) % 2 == 0 if falling is None else falling
     i, j = i.ravel(), j.ravel()
     right, below = (j + 1) % columns, (i + 1) % rows
     a, b, c, d = i * columns + j, below * columns + j, below * columns + right, i * columns + right
-    even = ((i + j) % 2 == 0)[:, None]
-    first = np.where(even, np.column_stack([a, b, c]), np.column_stack([a, b, d]))
-    second = np.where(even, np.column_stack([a, c, d]), np.column_stack([b, c, d]))
+    choice = falling.ravel()[:, None]
+    first = np.where(choice, np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+    second = np.where(choice, np.column_stack([a, c, d]), np.column_stack([b, c, d]))
     return np.stack([first, second], axis=1).reshape(-1, 3)
 
 
@@ -235,6 +237,63 @@ def check_part(part):
     face = np.cross(b - a, c - a)
     area = np.linalg.norm(face, axis=1)
     assert area.min() > 0, f"{part.name}: a triangle without area"
-    agreement = np.einsum("ij,ij->i", face, normals[triangles].sum(axis=1)) / area
-    against = (agreement <= 0).mean()
-    assert against < 1e-3, f"{part.name}: {against:.2%} of the normals against their triangle's winding"
+    agreement = np.einsum("ij,ikj->ik", face / area[:, None], normals[triangles])
+    assert agreement.min() > 0, f"{part.name}: a normal against its triangle's winding ({agreement.min():.3f})"
+
+
+def rotation_matrix(quaternion):
+    """The rotation of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = quaternion
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ])
+
+
+def verify(path, subject):
+    """Reads a written scene again and holds what concerns the file: its size and lengths, bounds, indices, and that every light is
+    flat, one-sided and turned to the point `subject`, with a factor in range and a black base."""
+    data = Path(path).read_bytes()
+    assert len(data) < 2_000_000, f"{path}: {len(data)} bytes"
+    magic, version, total, length, kind = struct.unpack_from("<4sIII4s", data)
+    assert (magic, version, total, kind) == (b"glTF", 2, len(data), b"JSON")
+    document = json.loads(data[20 : 20 + length])
+    binary = data[28 + length :]
+    assert struct.unpack_from("<I4s", data, 20 + length) == (len(binary), b"BIN\0")
+    assert document["buffers"][0]["byteLength"] == len(binary) and "extensionsRequired" not in document
+
+    def values(index):
+        accessor = document["accessors"][index]
+        view = document["bufferViews"][accessor["bufferView"]]
+        kind = {FLOAT: "<f4", UINT16: "<u2", UINT32: "<u4"}[accessor["componentType"]]
+        width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        return np.frombuffer(binary, kind, accessor["count"] * width, view["byteOffset"]).reshape(-1, width), accessor
+
+    lights = 0
+    for node in document["nodes"]:
+        if "mesh" not in node:
+            continue
+        primitive = document["meshes"][node["mesh"]]["primitives"][0]
+        material = document["materials"][primitive["material"]]
+        positions, accessor = values(primitive["attributes"]["POSITION"])
+        assert np.isfinite(positions).all(), node["name"]
+        assert np.array_equal(positions.min(axis=0), np.float32(accessor["min"])), node["name"]
+        assert np.array_equal(positions.max(axis=0), np.float32(accessor["max"])), node["name"]
+        assert values(primitive["indices"])[0].max() < len(positions), node["name"]
+        if "emissiveFactor" not in material:
+            continue
+        lights += 1
+        rotation = rotation_matrix(node.get("rotation", (0.0, 0.0, 0.0, 1.0)))
+        p_world = positions.astype(float) @ rotation.T + node.get("translation", (0.0, 0.0, 0.0))
+        triangles = values(primitive["indices"])[0].reshape(-1, 3)
+        a, b, c = (p_world[triangles[:, k]] for k in range(3))
+        normals = np.cross(b - a, c - a)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        assert np.abs((p_world - p_world[0]) @ normals[0]).max() < 1e-6, f"{node['name']} is not flat"
+        assert (normals @ normals[0] > 1 - 1e-6).all(), f"{node['name']} is folded over"
+        towards = np.subtract(subject, p_world.mean(axis=0))
+        assert normals[0] @ towards > 0.9 * np.linalg.norm(towards), f"{node['name']} looks away"
+        assert 0 <= min(material["emissiveFactor"]) and max(material["emissiveFactor"]) == 1.0, node["name"]
+        assert material["pbrMetallicRoughness"]["baseColorFactor"][:3] == [0.0] * 3 and "doubleSided" not in material
+    assert lights >= 2, "fewer than two lights"
