@@ -17,6 +17,30 @@
 //! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
+//!
+//! # Glossary
+//!
+//! Z: Zeltner, Burley, Chiang 2022; H: Heitz, Dupuy, Hill, Neubelt 2016; S: Heitz, Dupuy, Crassin, Dachsbacher 2015.
+//!
+//! | symbol | name | range | source |
+//! |---|---|---|---|
+//! | `roughness` | the user's parameter | \[0, 1\] | glTF: sheenRoughnessFactor |
+//! | `alpha` | roughness of the layer: small is fuzz, large is dust; `alpha = roughness` | \[0, 1\] | Z |
+//! | `sigma` | cross-section of the fibres seen along their axis, `alpha^2` | (0, 1] | S |
+//! | `C_sheen` | colour of the sheen, linear Rec. 709 | \[0, 1\] each | Z eq. 1 |
+//! | `wi` | direction whose elevation picks the lobe (the view in rendering), unit, away from the surface | upper hemisphere | Z |
+//! | `wo` | the other direction (the light's side) | upper hemisphere | Z |
+//! | `mu` | cosine to the normal | \[0, 1\] | |
+//! | `phi` | azimuth around the normal, 0 towards `wi` | \[-pi, pi\] | |
+//! | `tau` | optical depth | \[0, infinity) | |
+//! | `R`, `r` | albedo: the share of light that the layer sends back up; `r` is the table's column | \[0, 1\] | Z eq. 1 |
+//! | `a`, `b` | the table's columns of the inverse matrix | a >= 0 | Z section 2 |
+//! | `m_inv` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | | Z section 2, H |
+//! | `D` | the clamped cosine on the unit sphere, `max(w_z, 0) / pi` | | H |
+//! | form factor | integral of a transformed cosine over a polygon; the whole hemisphere is 1 | \[0, 1\] | H section 3 |
+//! | radiance | of a light or a surface, in any linear unit | \[0, infinity) | |
+//!
+//! Local frame: z is the normal, x is `wi` projected on the surface. `a_from_b` names a transform, `p_world` a point.
 
 pub mod fit;
 pub mod math;

@@ -49,3 +49,117 @@ fn navigate(ui: &mut Ui, picture: Rect, state: &mut State) -> Change {
     }
     if state.orbit == before { Change::None } else { Change::Drawn }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Camera, Instance, Material, Mesh, Projection, Scene, Sheen};
+    use egui::{Event, Modifiers, Pos2, RawInput, ViewportId, pos2, vec2};
+    use glam::{Mat4, Vec3};
+
+    fn state() -> State {
+        let sheen = Some(Sheen { color: Vec3::ONE, roughness: 0.3 });
+        let velvet = Material {
+            name: "velvet".into(),
+            base_color: Vec3::ZERO,
+            sheen,
+            emission: Vec3::ZERO,
+            double_sided: false,
+        };
+        let triangle = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], ..Mesh::default() };
+        let camera = Camera {
+            name: "camera".into(),
+            world_from_camera: Mat4::from_translation(Vec3::Z),
+            projection: Projection::Perspective { yfov: 0.7, near: 0.1, far: f32::INFINITY },
+        };
+        let scene = Scene {
+            meshes: vec![triangle],
+            instances: vec![Instance { name: "cloth".into(), mesh: 0, world_from_mesh: Mat4::IDENTITY }],
+            materials: vec![velvet],
+            cameras: vec![camera],
+            ..Scene::default()
+        };
+        State::new("test.glb", scene)
+    }
+
+    /// What a pass finds after these events, and after how many seconds the next one is wanted.
+    fn pass(context: &egui::Context, state: &mut State, events: Vec<Event>) -> (Layout, f64) {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 720.0)));
+        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let mut layout = Layout::default();
+        let output = context.run_ui(input, |ui| layout = show(ui, state));
+        let delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
+        output.drop_without_applying_deltas();
+        (layout, delay)
+    }
+
+    fn press(pos: Pos2, button: PointerButton, pressed: bool) -> Event {
+        Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
+    }
+
+    /// The changes that a drag brings about, pass by pass.
+    fn drag(context: &egui::Context, state: &mut State, button: PointerButton, from: Pos2, to: Pos2) -> Change {
+        let passes = [
+            vec![Event::PointerMoved(from)],
+            vec![press(from, button, true)],
+            vec![Event::PointerMoved(to)],
+            vec![press(to, button, false)],
+        ];
+        passes.into_iter().map(|events| pass(context, state, events).0.change).max().unwrap()
+    }
+
+    #[test]
+    fn rests_while_nothing_happens() {
+        let (context, mut state) = (egui::Context::default(), state());
+        (0..10).for_each(|_| drop(pass(&context, &mut state, vec![])));
+        let (layout, delay) = pass(&context, &mut state, vec![]);
+        assert_eq!(layout.change, Change::None);
+        assert!(delay > 3600.0, "the next pass is wanted in {delay} s");
+    }
+
+    #[test]
+    fn the_panel_leaves_the_picture_free() {
+        let (layout, _) = pass(&egui::Context::default(), &mut state(), vec![]);
+        assert!(layout.picture.min == Pos2::ZERO && layout.picture.width() > 950.0 && layout.picture.height() == 720.0);
+    }
+
+    #[test]
+    fn dragging_turns_or_pans_and_the_wheel_zooms() {
+        let (context, mut state) = (egui::Context::default(), state());
+        let (from, to) = (pos2(300.0, 300.0), pos2(400.0, 320.0));
+        let start = state.orbit.camera().world_from_camera;
+        assert_eq!(drag(&context, &mut state, PointerButton::Primary, from, to), Change::Drawn);
+        let turned = state.orbit.camera().world_from_camera;
+        assert!(!turned.z_axis.abs_diff_eq(start.z_axis, 0.1));
+        assert_eq!(drag(&context, &mut state, PointerButton::Secondary, from, to), Change::Drawn);
+        let panned = state.orbit.camera().world_from_camera;
+        assert!(panned.z_axis.abs_diff_eq(turned.z_axis, 1e-6) && !panned.w_axis.abs_diff_eq(turned.w_axis, 0.01));
+        let wheel = Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: vec2(0.0, 3.0),
+            phase: egui::TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        };
+        let change = (0..20).map(|k| if k == 0 { vec![wheel.clone()] } else { vec![] });
+        assert_eq!(change.map(|events| pass(&context, &mut state, events).0.change).max(), Some(Change::Drawn));
+        assert!(!state.orbit.camera().world_from_camera.w_axis.abs_diff_eq(panned.w_axis, 0.01));
+    }
+
+    #[test]
+    fn dragging_the_slider_makes_dust_of_fuzz_and_reset_takes_it_back() {
+        let (context, mut state) = (egui::Context::default(), state());
+        pass(&context, &mut state, vec![]);
+        // The slider's row is found by trying: the panel's layout is egui's business.
+        let roughness = |state: &State| state.scene.materials[0].sheen.map(|sheen| sheen.roughness);
+        let rows = (0..200).step_by(4).map(|y| y as f32);
+        let changed = rows.filter(|&y| {
+            let before = roughness(&state);
+            let change = drag(&context, &mut state, PointerButton::Primary, pos2(1140.0, y), pos2(1220.0, y));
+            roughness(&state) != before && change == Change::Scene
+        });
+        assert!(changed.count() > 0);
+        assert!(roughness(&state) > Some(0.6), "{:?}", roughness(&state));
+        state.reset();
+        assert_eq!(roughness(&state), Some(0.3));
+    }
+}

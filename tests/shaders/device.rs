@@ -9,7 +9,7 @@ use wgpu::{BufferUsages, PollType, TextureView};
 fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| {
-        let gpu = pollster::block_on(device::open(&device::instance(), None, None)).expect("these tests need a device");
+        let gpu = pollster::block_on(device::open_offscreen(None)).expect("these tests need a device");
         println!("device: {}", gpu.adapter.get_info().name);
         gpu
     })

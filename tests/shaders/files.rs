@@ -106,6 +106,16 @@ fn the_examples_in_the_headers_compile() {
 }
 
 #[test]
+fn the_readme_shades_with_what_it_says_to_copy() {
+    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let (_, rest) = readme.split_once("```wgsl\n").expect("the README shows how the files are used");
+    let (example, _) = rest.split_once("```").expect("the example ends");
+    let files = FILES.map(|(name, _)| source(name)).concat();
+    compile(&format!("{files}\n{example}")).unwrap_or_else(|error| panic!("README.md: {error}"));
+    assert!(compile(example).is_err(), "the example stands on the files");
+}
+
+#[test]
 fn a_file_that_breaks_a_rule_is_found_out() {
     let good =
         HEADER.map(|begin| format!("{begin}some words\n")).concat() + "\nfn ltc_one() -> f32 {\n    return 1.0;\n}\n";
