@@ -138,6 +138,7 @@ mod tests {
             unit: egui::MouseWheelUnit::Line,
             delta: vec2(0.0, 3.0),
             phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
             modifiers: Modifiers::NONE,
         };
         let change = (0..20).map(|k| if k == 0 { vec![wheel.clone()] } else { vec![] });
