@@ -3,6 +3,7 @@
 mod bad_input;
 mod command;
 mod compare;
+mod golden;
 mod radiance;
 mod run;
 mod shown;
