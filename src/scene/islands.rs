@@ -16,9 +16,9 @@ use super::{Bounds, Instance, Mesh, Polygon};
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Half the thickness of an island, relative to the diagonal of its bounding box.
 const PLANE_TOLERANCE: f64 = 1e-3;
-/// Cosine of the sharpest edge (3 degrees) across which triangles are taken for parts of one plane without a look at
-/// the plane: well above the noise of rounded positions in finely divided planes.
-const SMOOTH_COSINE: f64 = 0.9986;
+/// Cosines of the sharpest edges (30 and 3 degrees) within parts that are looked at as a whole, one after the other.
+/// The sharper lets flat parts be uneven within the tolerance, the blunter tells them from the rounded rims around them.
+const SMOOTH_COSINES: [f64; 2] = [0.866, 0.9986];
 /// Edges with more triangles than this join none: where honest meshes have two, hostile ones have a million.
 const EDGE_USES_MAX: usize = 8;
 
@@ -168,35 +168,73 @@ struct Placed<'a> {
     faces: Vec<Face>,
 }
 
+/// Islands found so far.
+struct Found {
+    islands: Vec<Vec<u32>>,
+    limit: usize,
+    /// Triangles that are in no island yet and may be joined to one.
+    open: Vec<bool>,
+}
+
+impl Found {
+    /// None where that is one too many.
+    fn push(&mut self, island: Vec<u32>) -> Option<()> {
+        self.islands.push(island);
+        (self.islands.len() <= self.limit).then_some(())
+    }
+}
+
 impl Placed<'_> {
     fn polygons(&self, limit: usize) -> Option<Vec<Polygon>> {
-        let mut taken = vec![false; self.triangles.len()];
-        let mut polygons = Vec::new();
-        for seed in 0..self.triangles.len() as u32 {
-            let smooth = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > SMOOTH_COSINE);
-            for island in self.split(smooth, limit.checked_sub(polygons.len())?)? {
-                polygons.extend(self.polygon(&island));
+        let all: Vec<u32> = (0..self.triangles.len() as u32).collect();
+        let mut found = Found { islands: Vec::new(), limit, open: vec![true; all.len()] };
+        self.divide(all, &SMOOTH_COSINES, &mut found)?;
+        Some(found.islands.iter().filter_map(|island| self.polygon(island)).collect())
+    }
+
+    /// Finds the islands in a part, all of which is open: what hangs together smoothly, to the first of the cosines, and
+    /// is planar as a whole; else by the next; else what grows from the largest triangle that is left.
+    fn divide(&self, mut part: Vec<u32>, smooth_cosines: &[f64], found: &mut Found) -> Option<()> {
+        let Some((&smooth, finer)) = smooth_cosines.split_first() else {
+            let area = |triangle: u32| self.faces[triangle as usize].area.length_squared();
+            part.sort_by(|&left, &right| area(right).total_cmp(&area(left)).then(left.cmp(&right)));
+            for seed in part {
+                if found.open[seed as usize] {
+                    let island = self.grow_plane(seed, &mut found.open);
+                    found.push(island)?;
+                }
+            }
+            return Some(());
+        };
+        for seed in part {
+            if !found.open[seed as usize] {
+                continue;
+            }
+            let grown = self.grow(seed, &mut found.open, |from, to| self.cosine(from, to) > smooth);
+            if self.is_planar(&grown) {
+                found.push(grown)?;
+            } else {
+                grown.iter().for_each(|&triangle| found.open[triangle as usize] = true);
+                self.divide(grown, finer, found)?;
             }
         }
-        (polygons.len() <= limit).then_some(polygons)
+        Some(())
     }
 
     fn cosine(&self, left: u32, right: u32) -> f64 {
         self.faces[left as usize].normal.dot(self.faces[right as usize].normal)
     }
 
-    /// Takes the triangles that hang together with `seed` through pairs that `joins`; none if `seed` is taken already.
-    fn grow(&self, seed: u32, taken: &mut [bool], mut joins: impl FnMut(u32, u32) -> bool) -> Vec<u32> {
-        if std::mem::replace(&mut taken[seed as usize], true) {
-            return Vec::new();
-        }
+    /// Takes the open triangles that hang together with `seed` through pairs that `joins`.
+    fn grow(&self, seed: u32, open: &mut [bool], mut joins: impl FnMut(u32, u32) -> bool) -> Vec<u32> {
+        open[seed as usize] = false;
         let mut grown = vec![seed];
         let mut next = 0;
         while let Some(&triangle) = grown.get(next) {
             next += 1;
             for &other in self.topology.neighbours(triangle) {
-                if !taken[other as usize] && joins(triangle, other) {
-                    taken[other as usize] = true;
+                if open[other as usize] && joins(triangle, other) {
+                    open[other as usize] = false;
                     grown.push(other);
                 }
             }
@@ -204,44 +242,17 @@ impl Placed<'_> {
         grown
     }
 
-    /// The planar parts of a smooth one: all of it where it can be, else grown from the largest triangle that is left.
-    /// None where there are more than `limit`.
-    fn split(&self, smooth: Vec<u32>, limit: usize) -> Option<Vec<Vec<u32>>> {
-        if smooth.is_empty() {
-            return Some(Vec::new());
-        }
-        if self.is_planar(&smooth) {
-            return (limit > 0).then(|| vec![smooth]);
-        }
-        let mut seeds = smooth;
-        let area = |triangle: &u32| self.faces[*triangle as usize].area.length_squared();
-        seeds.sort_by(|left, right| area(right).total_cmp(&area(left)).then(left.cmp(right)));
-        // Nothing but the part itself is open to growth.
-        let mut taken = vec![true; self.triangles.len()];
-        seeds.iter().for_each(|&triangle| taken[triangle as usize] = false);
-        let mut islands = Vec::new();
-        for &seed in &seeds {
-            let island = self.grow_plane(seed, &mut taken);
-            if !island.is_empty() {
-                islands.push(island);
-            }
-            if islands.len() > limit {
-                return None;
-            }
-        }
-        Some(islands)
-    }
-
     /// Grows through triangles that lie in the plane of `seed`, to the tolerance of what has grown so far.
-    fn grow_plane(&self, seed: u32, taken: &mut [bool]) -> Vec<u32> {
+    fn grow_plane(&self, seed: u32, open: &mut [bool]) -> Vec<u32> {
         let normal = self.faces[seed as usize].normal;
         let origin = self.positions[self.triangles[seed as usize][0] as usize];
         let mut bounds = Extent::new(self.corners(seed));
-        self.grow(seed, taken, |_, triangle| {
+        self.grow(seed, open, |_, triangle| {
             let grown = self.corners(triangle).into_iter().fold(bounds, Extent::with);
             let tolerance = PLANE_TOLERANCE * grown.diagonal();
             let in_plane = |corner: DVec3| normal.dot(corner - origin).abs() <= tolerance;
-            let joins = self.cosine(seed, triangle) > SMOOTH_COSINE && self.corners(triangle).into_iter().all(in_plane);
+            let faces_on = self.cosine(seed, triangle) > SMOOTH_COSINES[0];
+            let joins = faces_on && self.corners(triangle).into_iter().all(in_plane);
             if joins {
                 bounds = grown;
             }

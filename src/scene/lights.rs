@@ -25,17 +25,20 @@ pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
         }
         triangles += mesh.indices.len() / 3;
         if triangles > TRIANGLES_MAX {
-            notices.add("emitters past 8388608 triangles glow but light nothing", || instance.name.clone());
+            let kind = format!("emitters past {TRIANGLES_MAX} triangles in all glow but light nothing");
+            notices.add(&kind, || instance.name.clone());
             continue;
         }
         let topology = topologies[instance.mesh].get_or_insert_with(|| Topology::new(mesh));
         let Some(polygons) = topology.polygons(mesh, instance, ISLANDS_MAX) else {
-            notices.add("emitters of more than 256 flat parts glow but light nothing", || mesh.name.clone());
+            let kind = format!("emitters of more than {ISLANDS_MAX} flat parts glow but light nothing");
+            notices.add(&kind, || mesh.name.clone());
             continue;
         };
         let own: usize = polygons.iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum();
         if corners + own > CORNERS_MAX {
-            notices.add("emitters past 8192 corners in all glow but light nothing", || instance.name.clone());
+            let kind = format!("emitters past {CORNERS_MAX} corners in all glow but light nothing");
+            notices.add(&kind, || instance.name.clone());
         } else if own > 0 {
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };

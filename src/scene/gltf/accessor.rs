@@ -59,7 +59,7 @@ impl<'a> Accessors<'a> {
                 return Err(wrong(what));
             }
             if let Some(stride) = view.byte_stride.map(|stride| stride.0)
-                && !(4..=252).contains(&stride) | !stride.is_multiple_of(4)
+                && !((4..=252).contains(&stride) && stride.is_multiple_of(4))
             {
                 return Err(wrong(format!("byteStride {stride} is no multiple of 4 from 4 to 252")));
             }
@@ -91,6 +91,14 @@ impl<'a> Accessors<'a> {
         let elements = self.elements(index)?;
         let read = |bytes: &[u8]| bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte));
         Ok((0..elements.count).map(|at| read(elements.get(at))).collect())
+    }
+
+    /// The bytes of all buffers; those of one file behind several count once.
+    pub fn bytes(&self) -> u64 {
+        let mut parts: Vec<(*const u8, usize)> = self.buffers.iter().map(|part| (part.as_ptr(), part.len())).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        parts.iter().map(|&(_, length)| length as u64).sum()
     }
 
     /// How many elements can be read.

@@ -8,7 +8,7 @@ use gltf::json::Root;
 use super::accessor::Accessors;
 use super::nodes::{Placed, node_label};
 use super::primitives::Reader;
-use super::{Fault, cut};
+use super::{Fault, name};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Bounds, Instance, Material, Scene};
@@ -63,7 +63,7 @@ impl<'a> Assembly<'a> {
                 if self.scene.instances.len() == INSTANCES_MAX {
                     return Err(wrong(format!("more than {INSTANCES_MAX} primitives at nodes; split the file")));
                 }
-                let name = cut(node.name.as_deref().unwrap_or_default());
+                let name = name(node.name.as_deref());
                 let world_from_mesh = DMat4::from(world_from_node).as_mat4();
                 self.scene.instances.push(Instance { name, mesh, world_from_mesh });
             }

@@ -13,7 +13,7 @@ use percent_encoding::percent_decode_str;
 
 use super::Fault;
 use super::container::Document;
-use crate::scene::error::label;
+use crate::scene::error::{cut, label};
 
 /// The most that is read from one file: what a .glb can say of its own length.
 const FILE_BYTES_MAX: u64 = u32::MAX as u64;
@@ -87,8 +87,7 @@ fn decode(data: &str) -> Result<Vec<u8>, Fault> {
 
 /// A path within the scene's folder: a scene is no way to reach other files of its user.
 fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
-    let shown: String = uri.chars().take(200).collect();
-    let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
+    let refuse = |why: &str| Fault::new(format_args!("its URI '{}' {why}", cut(uri, 100)));
     let folder = folder.ok_or_else(|| refuse("names a file, and this scene has no folder; give a .glb file"))?;
     if uri.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/')) {
         return Err(refuse("has a scheme; give a path relative to the scene's folder"));

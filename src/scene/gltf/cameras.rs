@@ -26,7 +26,7 @@ pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec
                 notices.add("cameras without a direction, scaled to nothing, are left out", || node_label(root, index))
             }
             Some(world_from_camera) => {
-                let name = super::cut(name.map_or("", String::as_str));
+                let name = super::name(name.map(String::as_str));
                 cameras.push((camera, Camera { name, world_from_camera, projection: projections[camera] }));
             }
         }

@@ -10,7 +10,7 @@ use gltf::json::{self, Root};
 use serde_json::Value;
 
 use super::Fault;
-use crate::scene::error::label;
+use crate::scene::error::{cut, label};
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Sheen};
 
@@ -45,7 +45,7 @@ fn read_one(material: &json::Material) -> Result<Material, String> {
     let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
     let [strength] = in_range("emissiveStrength", [strength], 0.0..=f32::MAX)?;
     Ok(Material {
-        name: super::cut(material.name.as_deref().unwrap_or_default()),
+        name: super::name(material.name.as_deref()),
         base_color: Vec3::new(base_color[0], base_color[1], base_color[2]),
         sheen: extensions.and_then(|extensions| extensions.others.get(SHEEN)).map(read_sheen).transpose()?,
         emission: emissive * strength,
@@ -62,24 +62,19 @@ fn read_sheen(value: &Value) -> Result<Sheen, String> {
         Some(value) => {
             let color = value.as_array().and_then(|color| color.iter().map(number).collect::<Option<Vec<f32>>>());
             let color = color.and_then(|color| <[f32; 3]>::try_from(color).ok());
-            color.ok_or_else(|| format!("sheenColorFactor is {}, not three numbers; correct it", brief(value)))?
+            color.ok_or_else(|| {
+                format!("sheenColorFactor is {}, not three numbers; correct it", cut(&value.to_string(), 40))
+            })?
         }
     };
     let roughness = match members.get("sheenRoughnessFactor") {
         None => 0.0,
-        Some(value) => {
-            number(value).ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", brief(value)))?
-        }
+        Some(value) => number(value)
+            .ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", cut(&value.to_string(), 40)))?,
     };
     let color = Vec3::from(in_unit("sheenColorFactor", color)?);
     let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
     Ok(Sheen { color, roughness })
-}
-
-/// JSON as it can stand in a line.
-fn brief(value: &Value) -> String {
-    let text = value.to_string();
-    if text.chars().count() > 40 { text.chars().take(37).chain("...".chars()).collect() } else { text }
 }
 
 fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
@@ -127,7 +122,7 @@ fn note_extensions(root: &Root, notices: &mut Notices) {
     let of_materials = root.materials.iter().filter_map(|material| material.extensions.as_ref());
     let of_materials = of_materials.flat_map(|extensions| extensions.others.keys());
     let names: BTreeSet<&String> = root.extensions_used.iter().chain(of_materials).collect();
-    let names = names.into_iter().filter(|name| !super::SERVED.contains(&name.as_str())).map(|name| super::cut(name));
+    let names = names.into_iter().filter(|name| !super::SERVED.contains(&name.as_str())).map(|name| cut(name, 60));
     let names: Vec<String> = names.take(EXTENSIONS_SHOWN).collect();
     if !names.is_empty() {
         notices.add("extensions that are not served are passed over", || names.join(", "));

@@ -18,7 +18,7 @@ mod tests;
 
 use std::path::Path;
 
-use super::error::{Fault, SceneError};
+use super::error::{Fault, SceneError, cut};
 use super::notices::Notices;
 use super::{Scene, framing, lights, rig};
 use ::gltf::json::Root;
@@ -69,13 +69,13 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
     match root.extensions_required.iter().find(|name| !SERVED.contains(&name.as_str())) {
         None => Ok(()),
         Some(name) => {
-            let what = format_args!("requires {}, which is not served; export the file without it", cut(name));
+            let what = format_args!("requires {}, which is not served; export the file without it", cut(name, 60));
             Err(Fault::at("extensionsRequired", what))
         }
     }
 }
 
-/// A name of the file's, cut to a length that many things may bear.
-fn cut(name: &str) -> String {
-    name.chars().take(NAME_MAX).collect()
+/// A thing's name, empty where it has none, of a length that many things may bear.
+fn name(name: Option<&str>) -> String {
+    cut(name.unwrap_or_default(), NAME_MAX)
 }

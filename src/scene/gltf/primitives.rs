@@ -30,8 +30,8 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(accessors: Accessors<'a>) -> Self {
-        let bytes: u64 = accessors.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
-        Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
+        let budget = accessors.bytes().saturating_mul(SHARING).saturating_add(SHARING_FLOOR);
+        Self { accessors, budget }
     }
 
     /// The mesh of a primitive; none where there is nothing to draw.
@@ -54,7 +54,10 @@ impl<'a> Reader<'a> {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
-        if let Some(codec) = compression(primitive) {
+        // Compressed primitives may have plain data beside it.
+        if let Some(codec) = compression(primitive)
+            && self.accessors.root.accessors[positions.value()].buffer_view.is_none()
+        {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
         let Corners { used, triangles: mut indices } = self.corners(primitive, positions.value(), mode)?;
@@ -106,6 +109,9 @@ impl<'a> Reader<'a> {
     }
 
     fn charge(&mut self, corners: usize, mode: Mode) -> Result<(), Fault> {
+        if corners > u32::MAX as usize / 3 {
+            return Err(Fault::new("has more triangles than 32-bit indices reach; split it"));
+        }
         let triangles = if mode == Mode::Triangles { corners / 3 } else { corners } as u64;
         let over = || Fault::new("too many primitives share the same accessors; split the file or export it again");
         self.budget = self.budget.checked_sub(triangles.saturating_mul(TRIANGLE_BYTES)).ok_or_else(over)?;

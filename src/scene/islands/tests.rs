@@ -112,6 +112,23 @@ fn what_bends_or_hangs_apart_is_two_polygons() {
 }
 
 #[test]
+fn uneven_parts_are_flat_within_the_tolerance() {
+    let count = |relative: f32| {
+        let (mut positions, indices) = cells(grid(100, 100));
+        let mut random = Pcg64::seed_from_u64(4);
+        // The same height for all vertices at a place.
+        let heights: Vec<f32> = (0..101 * 101).map(|_| random.random_range(-1.0..1.0)).collect();
+        for p in &mut positions {
+            p.z = relative * 141.0 * heights[(p.x + 101.0 * p.y) as usize];
+        }
+        let mesh = Mesh { positions, indices, ..Mesh::default() };
+        let instance = Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+        Topology::new(&mesh).polygons(&mesh, &instance, 256).map(|polygons| polygons.len())
+    };
+    assert_eq!([1e-5, 4e-4, 9e-4, 1.2e-3].map(count), [Some(1), Some(1), Some(1), None]);
+}
+
+#[test]
 fn faces_back_to_back_light_both_ways() {
     let (positions, indices) = cells(grid(2, 2));
     let back = indices.chunks_exact(3).flat_map(|triangle| [triangle[0], triangle[2], triangle[1]]);

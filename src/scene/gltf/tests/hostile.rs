@@ -70,6 +70,7 @@ fn broken_values_are_named() {
         ("/nodes/0/mesh", json!(0.5), "nodes[0].mesh: invalid type"),
         ("/nodes/0/skin", json!(0), "nodes[0].skin: index 0 is out of range"),
         ("/nodes/0/name", json!(["a"]), "nodes[0].name"),
+        ("/nodes/0/mesh", json!("a".repeat(100_000)), "nodes[0].mesh: invalid type: string \"aaaa"),
         ("/nodes/1/camera", json!(1), "nodes[1].camera: index 1 is out of range"),
         ("/nodes/2/children/1", json!(70), "nodes[2].children[1]: index 70 is out of range"),
         ("/nodes/2/children/1", json!(2), "node 2: is its own ancestor"),
@@ -129,7 +130,6 @@ fn broken_values_are_named() {
         ("/meshes/0/primitives/0/attributes/NORMAL", json!(3), "mesh 0 primitive 0: has 4 positions and 3 normals"),
         ("/meshes/0/primitives/0/attributes/POSITION", json!(3), "has 3 positions and 4 normals"),
         ("/meshes/0/primitives/0/targets", json!([{ "POSITION": 77 }]), "primitives[0].targets[0].POSITION: index 77"),
-        ("/meshes/0/primitives/0/extensions", json!({ "KHR_draco_mesh_compression": {} }), "by KHR_draco_mesh_compression"),
         ("/accessors/0/bufferView", json!(9), "accessors[0].bufferView: index 9"),
         ("/accessors/0/bufferView", Value::Null, "accessor 0: has no bufferView"),
         ("/accessors/0/byteOffset", json!(4), "accessor 0: 4 elements from 4 do not lie in bufferView 0's 48 bytes"),
@@ -300,6 +300,15 @@ fn a_few_bytes_do_not_ask_for_much_memory() {
     file.json["meshes"][0]["primitives"] = vec![primitive; 2000].into();
     file.json["nodes"] = vec![json!({ "mesh": 0 }); 1000].into();
     assert!(error(&file.glb(), "bounds").contains("more than 1048576 primitives at nodes"));
+}
+
+#[test]
+fn compression_is_named_where_there_is_nothing_else() {
+    let mut file = full();
+    file.json["meshes"][0]["primitives"][0]["extensions"] = json!({ "KHR_draco_mesh_compression": {} });
+    assert!(read(&file.glb()).is_ok());
+    file.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    assert!(error(&file.glb(), "draco").contains("compressed by KHR_draco_mesh_compression"));
 }
 
 #[test]
