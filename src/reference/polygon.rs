@@ -233,7 +233,7 @@ mod tests {
             for (a, b) in LOBES {
                 let whole = form_factor(&[vec![p, q, r]], lobe(a, b), true);
                 // Rounding of the split points, against the distance of the edge.
-                assert_near(form_factor(&[split.clone()], lobe(a, b), true), whole, 4e-16 / distance);
+                assert_near(form_factor(std::slice::from_ref(&split), lobe(a, b), true), whole, 4e-16 / distance);
                 // Transforming the light or the lobe is the same.
                 let moved = [p, q, r].map(|vertex| lobe(a, b) * vertex).to_vec();
                 assert_near(form_factor(&[moved], DMat3::IDENTITY, true), whole, 4e-16 / distance);

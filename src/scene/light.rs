@@ -15,6 +15,15 @@ pub struct Light {
     pub instance: usize,
 }
 
+impl Light {
+    /// The mean of the outlines' vertices: where the light is said to be.
+    pub fn position(&self) -> Vec3 {
+        let vertices = self.polygons.iter().flat_map(|polygon| &polygon.contours).flatten();
+        let (sum, count) = vertices.fold((Vec3::ZERO, 0.0), |(sum, count), vertex| (sum + vertex, count + 1.0));
+        sum / f32::max(count, 1.0)
+    }
+}
+
 /// A planar polygon in world space, any number of vertices, convex or not, holes allowed.
 #[derive(Clone, Debug)]
 pub struct Polygon {

@@ -54,6 +54,14 @@ impl Scene {
         named.or_else(|| self.cameras.get(wanted.parse::<usize>().ok()?))
     }
 
+    /// Moves a light, and the emitter that is drawn for it, by `offset` in the world.
+    pub fn move_light(&mut self, index: usize, offset: Vec3) {
+        let light = &mut self.lights[index];
+        let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
+        outlines.flatten().for_each(|vertex| *vertex += offset);
+        self.instances[light.instance].world_from_mesh.w_axis += offset.extend(0.0);
+    }
+
     /// A box in the world around all that is drawn. Not the smallest: rotated meshes have room in theirs.
     pub fn bounds(&self) -> Bounds {
         self.bounds_of(|_| true)

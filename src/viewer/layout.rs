@@ -111,7 +111,9 @@ mod tests {
     #[test]
     fn rests_while_nothing_happens() {
         let (context, mut state) = (egui::Context::default(), state());
-        (0..10).for_each(|_| drop(pass(&context, &mut state, vec![])));
+        for _ in 0..10 {
+            pass(&context, &mut state, vec![]);
+        }
         let (layout, delay) = pass(&context, &mut state, vec![]);
         assert_eq!(layout.change, Change::None);
         assert!(delay > 3600.0, "the next pass is wanted in {delay} s");

@@ -9,6 +9,7 @@ mod panel;
 mod state;
 mod window;
 
+use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
 use crate::renderer::{DeviceError, RenderError};
@@ -30,7 +31,13 @@ pub enum ViewerError {
 
 /// Connects to the display.
 pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
-    EventLoop::new().map_err(|error| ViewerError::NoDisplay(error.to_string()))
+    // winit's own words name the line of its source.
+    EventLoop::new().map_err(|error| match error {
+        EventLoopError::NotSupported(error) => ViewerError::NoDisplay(error.to_string()),
+        EventLoopError::Os(_) | EventLoopError::RecreationAttempt | EventLoopError::ExitFailure(_) => {
+            ViewerError::NoDisplay("no Wayland or X11 server answers".to_owned())
+        }
+    })
 }
 
 /// Shows the scene, which is called `name`, until the window is closed.
