@@ -51,3 +51,9 @@ fn chi_square_accepts_fair_dice_and_rejects_loaded_ones() {
     let bias = [1.1, 0.9, 1.0, 1.0, 1.0, 1.0].map(|weight| weight / 6.0);
     assert!(chi_square(&loaded, &bias, 1e-12) < REJECTED);
 }
+
+#[test]
+#[should_panic(expected = "4.00 standard errors")]
+fn a_mean_too_far_off_is_told() {
+    assert_within(0.5, 0.46, 0.01, 3.0, "a mean");
+}
