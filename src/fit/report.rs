@@ -85,11 +85,11 @@ impl fmt::Display for Report {
         )?;
         write!(
             f,
-            "Of {} nodes with alpha > 0, {} where r is far below {DIM} have a, b of the next larger alpha, \
+            "Of {} nodes with alpha > 0, {} with r far below {DIM} have a, b of the next larger alpha,\n\
              and {} have r from single scattering and that alpha's share of the rest.",
             resolution * (resolution - 1),
             self.copied_shapes,
-            self.copied_albedos
+            self.copied_albedos,
         )
     }
 }

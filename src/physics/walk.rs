@@ -1,10 +1,10 @@
 //! The slab solved by an analog random walk: every order of scattering, no bias, only noise.
 //!
 //! A path ends only where it leaves the slab, after as many scatterings as that takes. It does leave: nowhere is the phase
-//! function below sigma^3 / (4 pi), so that from any depth and direction, the next scattering turns a path to within 60 degrees
-//! of the normal, and the flight after that takes it out, with a chance above a number that depends on sigma alone; the number of
-//! scatterings is below a geometric variable, and its mean stays under a few hundred down to alpha = 0.01. A broken
-//! number cannot hold a path back either: a depth that is not inside (0, 1) ends it.
+//! function below sigma^3 / (4 pi), so that from any depth and direction, the next scattering turns a path to within 60
+//! degrees of the normal, and the flight after that takes it out, with a chance above a number that depends on sigma
+//! alone; the number of scatterings is below a geometric variable. Its mean stays under 100 down to alpha = 1/31, and under a
+//! thousand down to 1/127. A broken number cannot hold a path back either: a depth that is not inside (0, 1) ends it.
 //!
 //! All scores are integers, so that sums do not depend on the order of threads: a seed gives the same counts on any
 //! number of them.

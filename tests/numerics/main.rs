@@ -1,1 +1,12 @@
+//! The numbers: the medium, the slab, its walk, the fit, the table and its files.
+//!
+//! Statistical tests have fixed seeds. A chi-square test fails where its probability falls below `SIGNIFICANCE`, and a
+//! comparison of means where it is off by more than the stated number of standard errors.
 
+mod fit;
+mod hostile_table;
+mod medium;
+mod slab;
+mod statistics;
+mod table;
+mod walk;
