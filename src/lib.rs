@@ -45,12 +45,12 @@
 pub mod fit;
 pub mod math;
 pub mod physics;
-#[cfg(any(feature = "gpu", feature = "cli"))]
+#[cfg(feature = "scenes")]
 pub mod picture;
 pub mod reference;
 #[cfg(feature = "gpu")]
 pub mod renderer;
-#[cfg(any(feature = "gpu", feature = "cli"))]
+#[cfg(feature = "scenes")]
 pub mod scene;
 pub mod table;
 #[cfg(feature = "viewer")]

@@ -7,6 +7,9 @@ mod args;
 mod draw;
 #[path = "main/fit.rs"]
 mod fit;
+#[cfg(feature = "gpu")]
+#[path = "main/render_args.rs"]
+mod render_args;
 
 use std::process::ExitCode;
 
@@ -25,6 +28,7 @@ impl Failure {
         Self { code: 2, message: message.to_string() }
     }
 
+    #[cfg(feature = "gpu")]
     /// No graphics device, or no display for a window.
     fn device(message: impl ToString) -> Self {
         Self { code: 3, message: message.to_string() }

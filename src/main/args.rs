@@ -1,9 +1,11 @@
-//! The flags and their ranges.
+//! The commands and their flags.
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use velour::scene::Lobes;
+use clap::{Args, Parser, Subcommand};
+
+#[cfg(feature = "gpu")]
+use crate::render_args::Render;
 
 /// Real-time sheen for fuzzy and dusty surfaces under polygonal area lights.
 ///
@@ -50,121 +52,6 @@ pub struct Fit {
     pub resolution: u16,
 }
 
-#[cfg(feature = "gpu")]
-#[derive(Args)]
-pub struct Render {
-    /// glTF 2.0 scene, .glb or .gltf
-    pub scene: PathBuf,
-    /// The picture: .png (exposure, tone curve, sRGB) or .exr (linear radiance, 32-bit float)
-    #[arg(short, long, value_name = "OUT.{png,exr}")]
-    pub output: PathBuf,
-    /// Pixels, width x height; the camera's vertical field of view is kept whatever the aspect
-    #[arg(long, default_value = "1280x720", value_name = "WxH", value_parser = size)]
-    pub size: [u32; 2],
-    /// A camera of the scene, by name or by index [default: the first]
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub camera: Option<String>,
-    /// Gives every material a sheen of this roughness, in [0,1]
-    #[arg(long, value_name = "A", value_parser = share, allow_negative_numbers = true)]
-    pub alpha: Option<f32>,
-    /// Gives every material a sheen of this colour, linear Rec. 709, each in [0,1]
-    #[arg(long, value_name = "R,G,B", value_parser = color, allow_hyphen_values = true)]
-    pub sheen_color: Option<[f32; 3]>,
-    /// Another table with our columns, .csv or .dds
-    #[arg(long, value_name = "FILE")]
-    pub sheen_table: Option<PathBuf>,
-    /// What is summed, of sheen, diffuse and emission
-    #[arg(long, default_value = "sheen,diffuse,emission", value_name = "LIST", value_parser = lobes)]
-    pub lobes: Lobes,
-    /// Emitters that light the scene are drawn
-    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
-    pub lights_visible: Switch,
-    /// Exposure value of a .png: radiance is multiplied by 2^EV
-    #[arg(long, default_value_t = 0.0, value_name = "EV", value_parser = exposure, allow_negative_numbers = true)]
-    pub exposure: f32,
-    /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral
-    #[arg(long, default_value = "neutral", value_enum, value_name = "NAME")]
-    pub tonemap: Tonemap,
-    /// Samples a pixel; with 1 each pixel is the value at its centre
-    #[arg(long, default_value = "4", value_name = "1|4", value_parser = samples)]
-    pub msaa: u32,
-    /// Part of an adapter's name, as `velour info` lists them
-    #[arg(long, value_name = "NAME-PART")]
-    pub adapter: Option<String>,
-    /// Prints figures for machines on stdout
-    #[arg(long)]
-    pub json: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum, PartialEq)]
-pub enum Switch {
-    On,
-    Off,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum Tonemap {
-    None,
-    Neutral,
-}
-
-#[cfg(feature = "gpu")]
-impl From<Tonemap> for velour::picture::ToneCurve {
-    fn from(tonemap: Tonemap) -> Self {
-        match tonemap {
-            Tonemap::None => Self::None,
-            Tonemap::Neutral => Self::Neutral,
-        }
-    }
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let parse = |side: &str| side.parse::<u32>().ok().filter(|side| *side > 0);
-    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some([parse(width)?, parse(height)?]));
-    sides.ok_or_else(|| "give two whole numbers of at least 1, say 1280x720".to_owned())
-}
-
-fn share(text: &str) -> Result<f32, String> {
-    number(text).filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| "give a number in [0,1]".to_owned())
-}
-
-fn color(text: &str) -> Result<[f32; 3], String> {
-    let channels: Option<Vec<f32>> = text.split(',').map(|channel| share(channel.trim()).ok()).collect();
-    channels
-        .and_then(|channels| channels.try_into().ok())
-        .ok_or_else(|| "give three numbers in [0,1], say 0.8,0.1,0.1".to_owned())
-}
-
-/// Past 100 stops either way a float has nothing left to show.
-fn exposure(text: &str) -> Result<f32, String> {
-    number(text).filter(|value| value.abs() <= 100.0).ok_or_else(|| "give a number in [-100,100]".to_owned())
-}
-
-fn number(text: &str) -> Option<f32> {
-    text.parse().ok().filter(|value: &f32| value.is_finite())
-}
-
-fn samples(text: &str) -> Result<u32, String> {
-    match text {
-        "1" => Ok(1),
-        "4" => Ok(4),
-        _ => Err("give 1 or 4".to_owned()),
-    }
-}
-
-fn lobes(text: &str) -> Result<Lobes, String> {
-    let mut lobes = Lobes { sheen: false, diffuse: false, emission: false };
-    for name in text.split(',') {
-        match name.trim() {
-            "sheen" => lobes.sheen = true,
-            "diffuse" => lobes.diffuse = true,
-            "emission" => lobes.emission = true,
-            _ => return Err("give a list of sheen, diffuse and emission, say sheen,diffuse".to_owned()),
-        }
-    }
-    Ok(lobes)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,34 +60,5 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn values_in_range_are_taken() {
-        assert_eq!(size("640x360"), Ok([640, 360]));
-        assert_eq!(share("0"), Ok(0.0));
-        assert_eq!(color("1, 0.5,0"), Ok([1.0, 0.5, 0.0]));
-        assert_eq!(exposure("-2.5"), Ok(-2.5));
-        assert_eq!(lobes("sheen"), Ok(Lobes { sheen: true, diffuse: false, emission: false }));
-    }
-
-    #[test]
-    fn values_out_of_range_are_refused() {
-        for text in ["", "0x1", "1x0", "1x", "x", "1x2x3", "-1x1", "99999999999x1", "1.5x2"] {
-            assert!(size(text).is_err(), "{text}");
-        }
-        for text in ["", "-0.1", "1.1", "nan", "inf", "word", "1e40"] {
-            assert!(share(text).is_err(), "{text}");
-            assert!(color(&format!("{text},0,0")).is_err(), "{text}");
-        }
-        for text in ["1,1", "1,1,1,1", ",,"] {
-            assert!(color(text).is_err(), "{text}");
-        }
-        for text in ["nan", "inf", "101", "x"] {
-            assert!(exposure(text).is_err(), "{text}");
-        }
-        for text in ["", "specular", "sheen,", "all"] {
-            assert!(lobes(text).is_err(), "{text}");
-        }
     }
 }

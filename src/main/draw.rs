@@ -11,8 +11,9 @@ use velour::scene::{Camera, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
 use crate::Failure;
-use crate::args::{Render, Switch};
+use crate::render_args::{Render, Switch};
 
+#[cfg(feature = "viewer")]
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
 const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../assets/drape.glb"));
 

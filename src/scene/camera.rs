@@ -3,11 +3,9 @@ use glam::Mat4;
 /// A view: looks along its own -z with +y up.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The glTF camera's name, or its node's where it has none; maybe empty.
     pub name: String,
     /// A rotation and a translation: no scale.
     pub world_from_camera: Mat4,
-    /// What of the view is in the picture.
     pub projection: Projection,
 }
 

@@ -24,8 +24,7 @@ pub(super) struct Fault(String);
 impl Fault {
     /// Something about the file as a whole.
     pub fn new(what: impl Display) -> Self {
-        // What stands first says the place; a file's values, which may be as long as they like, come after it.
-        Self(cut(&one_line(&what.to_string()), 300))
+        Self(one_line(&what.to_string()))
     }
 
     /// Something at a place within the file, say `mesh 3 "sleeve"`.
@@ -46,18 +45,14 @@ pub(super) fn one_line(text: &str) -> String {
     line
 }
 
-/// At most `length` characters of a text, the last three of them dots where it is longer.
-pub(super) fn cut(text: &str, length: usize) -> String {
-    match text.char_indices().nth(length) {
-        None => text.to_owned(),
-        Some(_) => text.chars().take(length - 3).chain("...".chars()).collect(),
-    }
-}
-
-/// A thing of the file by its kind, index and name: `mesh 3 "sleeve"`.
+/// A thing of the file by its kind, index and name: `mesh 3 "sleeve"`. Long names are cut.
 pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
+    const SHOWN: usize = 60;
     match name {
         None | Some("") => format!("{kind} {index}"),
-        Some(name) => format!("{kind} {index} \"{}\"", cut(name, 60)),
+        Some(name) => match name.char_indices().nth(SHOWN) {
+            None => format!("{kind} {index} \"{name}\""),
+            Some((cut, _)) => format!("{kind} {index} \"{}...\"", &name[..cut]),
+        },
     }
 }

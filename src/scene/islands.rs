@@ -16,9 +16,11 @@ use super::{Bounds, Instance, Mesh, Polygon};
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Half the thickness of an island, relative to the diagonal of its bounding box.
 const PLANE_TOLERANCE: f64 = 1e-3;
-/// Cosines of the sharpest edges (30 and 3 degrees) within parts that are looked at as a whole, one after the other.
-/// The sharper lets flat parts be uneven within the tolerance, the blunter tells them from the rounded rims around them.
-const SMOOTH_COSINES: [f64; 2] = [0.866, 0.9986];
+/// Cosine of the sharpest edge (60 degrees) within an island: noise well within the plane's tolerance may turn the faces
+/// of a finely divided plane as far.
+const FACING_COSINE: f64 = 0.5;
+/// Cosine of the sharpest edge (3 degrees) within an island of a patch that is not planar as a whole.
+const SMOOTH_COSINE: f64 = 0.9986;
 /// Edges with more triangles than this join none: where honest meshes have two, hostile ones have a million.
 const EDGE_USES_MAX: usize = 8;
 
@@ -59,8 +61,7 @@ impl Topology {
         let world_from_mesh = DAffine3::from_mat4(instance.world_from_mesh.as_dmat4());
         let positions = mesh.positions.iter().map(|position| world_from_mesh.transform_point3(position.as_dvec3()));
         let positions: Vec<DVec3> = positions.collect();
-        let mirrored = world_from_mesh.matrix3.determinant() < 0.0;
-        let turned = |&[a, b, c]: &[u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let turned = |&[a, b, c]: &[u32; 3]| if instance.mirrors() { [a, c, b] } else { [a, b, c] };
         let triangles: Vec<[u32; 3]> = self.triangles.iter().map(turned).collect();
         let faces = triangles.iter().map(|&corners| {
             let [a, b, c] = corners.map(|corner| positions[corner as usize]);
@@ -79,59 +80,58 @@ impl Topology {
 
 /// For each vertex the first one at its place, to `tolerance`.
 fn weld(positions: &[Vec3], tolerance: f64) -> Vec<u32> {
-    let mut cells = Cells::new(positions, tolerance);
+    let mut places = Places::new(positions, tolerance);
+    let mut same = HashMap::with_capacity(positions.len());
     // Most vertices that meet are equal to the bit: these need no search. Adding zero makes -0 and 0 one.
     let key = |position: &Vec3| (*position + Vec3::ZERO).to_array().map(f32::to_bits);
-    let mut same = HashMap::with_capacity(positions.len());
-    let first = |(index, position)| *same.entry(key(position)).or_insert_with(|| cells.find_or_insert(index as u32));
-    positions.iter().enumerate().map(first).collect()
+    let welded = positions.iter().enumerate();
+    welded.map(|(index, position)| *same.entry(key(position)).or_insert_with(|| places.find_or_insert(index))).collect()
 }
 
-/// Vertices in cells of space, further apart than the tolerance.
-struct Cells<'a> {
+/// Vertices no two of which are at one place, in cells.
+struct Places<'a> {
     positions: &'a [Vec3],
     tolerance: f64,
     origin: DVec3,
-    /// The last vertex put into each cell, and for each vertex the one before it.
-    last: HashMap<[u32; 3], u32>,
-    previous: Vec<Option<u32>>,
+    cell_width: f64,
+    /// The last vertex in each cell that has any, and the one before each vertex in its cell.
+    last: HashMap<[i64; 3], u32>,
+    before: Vec<Option<u32>>,
 }
 
-impl<'a> Cells<'a> {
-    /// In tolerances: wide enough for most vertices to be near one cell only, narrow enough to hold few.
-    const WIDTH: f64 = 8.0;
-
+impl<'a> Places<'a> {
     fn new(positions: &'a [Vec3], tolerance: f64) -> Self {
         let origin = Bounds::of_points(positions).min.as_dvec3();
-        Self { positions, tolerance, origin, last: HashMap::new(), previous: vec![None; positions.len()] }
+        // So wide that most searches end in one cell, and so narrow that no cell holds more than some hundreds.
+        let cell_width = (8.0 * tolerance).max(f64::MIN_POSITIVE);
+        let last = HashMap::with_capacity(positions.len());
+        Self { positions, tolerance, origin, cell_width, last, before: vec![None; positions.len()] }
     }
 
-    /// A vertex within the tolerance of this one, or itself, put into its cell.
-    fn find_or_insert(&mut self, index: u32) -> u32 {
-        let point = self.positions[index as usize].as_dvec3();
+    /// The vertex at the place of `index`, which is itself where there was none.
+    fn find_or_insert(&mut self, index: usize) -> u32 {
+        let point = self.positions[index].as_dvec3();
         let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
-        for corner in 0..8 {
-            let is_high = [corner & 1 != 0, corner & 2 != 0, corner & 4 != 0];
-            if (0..3).any(|axis| is_high[axis] && low[axis] == high[axis]) {
-                continue;
-            }
-            let cell = [0, 1, 2].map(|axis| if is_high[axis] { high[axis] } else { low[axis] });
-            let mut other = self.last.get(&cell).copied();
-            while let Some(vertex) = other {
-                if self.positions[vertex as usize].as_dvec3().distance(point) <= self.tolerance {
-                    return vertex;
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    let vertices = std::iter::successors(self.last.get(&[x, y, z]).copied(), |&vertex| {
+                        self.before[vertex as usize]
+                    });
+                    let mut near = vertices
+                        .filter(|&vertex| self.positions[vertex as usize].as_dvec3().distance(point) <= self.tolerance);
+                    if let Some(vertex) = near.next() {
+                        return vertex;
+                    }
                 }
-                other = self.previous[vertex as usize];
             }
         }
-        self.previous[index as usize] = self.last.insert(self.cell(point), index);
-        index
+        self.before[index] = self.last.insert(self.cell(point), index as u32);
+        index as u32
     }
 
-    /// The counts fit: the tolerance is a millionth of the whole.
-    fn cell(&self, point: DVec3) -> [u32; 3] {
-        let width = (Self::WIDTH * self.tolerance).max(f64::MIN_POSITIVE);
-        ((point - self.origin) / width).to_array().map(|index| index as u32)
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        ((point - self.origin) / self.cell_width).floor().to_array().map(|index| index as i64)
     }
 }
 
@@ -168,73 +168,63 @@ struct Placed<'a> {
     faces: Vec<Face>,
 }
 
-/// Islands found so far.
-struct Found {
-    islands: Vec<Vec<u32>>,
-    limit: usize,
-    /// Triangles that are in no island yet and may be joined to one.
-    open: Vec<bool>,
-}
-
-impl Found {
-    /// None where that is one too many.
-    fn push(&mut self, island: Vec<u32>) -> Option<()> {
-        self.islands.push(island);
-        (self.islands.len() <= self.limit).then_some(())
-    }
-}
-
 impl Placed<'_> {
     fn polygons(&self, limit: usize) -> Option<Vec<Polygon>> {
-        let all: Vec<u32> = (0..self.triangles.len() as u32).collect();
-        let mut found = Found { islands: Vec::new(), limit, open: vec![true; all.len()] };
-        self.divide(all, &SMOOTH_COSINES, &mut found)?;
-        Some(found.islands.iter().filter_map(|island| self.polygon(island)).collect())
+        let mut taken = vec![false; self.triangles.len()];
+        let mut islands = Vec::new();
+        for seed in 0..self.triangles.len() as u32 {
+            let patch = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > FACING_COSINE);
+            self.part(patch, &mut islands, limit)?;
+        }
+        Some(islands.iter().filter_map(|island| self.polygon(island)).collect())
     }
 
-    /// Finds the islands in a part, all of which is open: what hangs together smoothly, to the first of the cosines, and
-    /// is planar as a whole; else by the next; else what grows from the largest triangle that is left.
-    fn divide(&self, mut part: Vec<u32>, smooth_cosines: &[f64], found: &mut Found) -> Option<()> {
-        let Some((&smooth, finer)) = smooth_cosines.split_first() else {
-            let area = |triangle: u32| self.faces[triangle as usize].area.length_squared();
-            part.sort_by(|&left, &right| area(right).total_cmp(&area(left)).then(left.cmp(&right)));
-            for seed in part {
-                if found.open[seed as usize] {
-                    let island = self.grow_plane(seed, &mut found.open);
-                    found.push(island)?;
-                }
-            }
-            return Some(());
-        };
-        for seed in part {
-            if !found.open[seed as usize] {
-                continue;
-            }
-            let grown = self.grow(seed, &mut found.open, |from, to| self.cosine(from, to) > smooth);
-            if self.is_planar(&grown) {
-                found.push(grown)?;
+    /// Parts triangles that hang together into islands: where not all of them lie in one plane, the smooth parts
+    /// between sharp edges may. None where there are more than `limit`.
+    fn part(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
+        if self.is_planar(&patch) {
+            // An empty one is no island.
+            islands.extend(Some(patch).filter(|patch| !patch.is_empty()));
+            return (islands.len() <= limit).then_some(());
+        }
+        let mut taken = self.all_taken_but(&patch);
+        for &seed in &patch {
+            let smooth = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > SMOOTH_COSINE);
+            if self.is_planar(&smooth) {
+                islands.extend(Some(smooth).filter(|smooth| !smooth.is_empty()));
             } else {
-                grown.iter().for_each(|&triangle| found.open[triangle as usize] = true);
-                self.divide(grown, finer, found)?;
+                self.split(smooth, islands, limit)?;
+            }
+            if islands.len() > limit {
+                return None;
             }
         }
         Some(())
+    }
+
+    /// Nothing but `patch` is open to growth.
+    fn all_taken_but(&self, patch: &[u32]) -> Vec<bool> {
+        let mut taken = vec![true; self.triangles.len()];
+        patch.iter().for_each(|&triangle| taken[triangle as usize] = false);
+        taken
     }
 
     fn cosine(&self, left: u32, right: u32) -> f64 {
         self.faces[left as usize].normal.dot(self.faces[right as usize].normal)
     }
 
-    /// Takes the open triangles that hang together with `seed` through pairs that `joins`.
-    fn grow(&self, seed: u32, open: &mut [bool], mut joins: impl FnMut(u32, u32) -> bool) -> Vec<u32> {
-        open[seed as usize] = false;
+    /// Takes the triangles that hang together with `seed` through pairs that `joins`; none if `seed` is taken already.
+    fn grow(&self, seed: u32, taken: &mut [bool], mut joins: impl FnMut(u32, u32) -> bool) -> Vec<u32> {
+        if std::mem::replace(&mut taken[seed as usize], true) {
+            return Vec::new();
+        }
         let mut grown = vec![seed];
         let mut next = 0;
         while let Some(&triangle) = grown.get(next) {
             next += 1;
             for &other in self.topology.neighbours(triangle) {
-                if open[other as usize] && joins(triangle, other) {
-                    open[other as usize] = false;
+                if !taken[other as usize] && joins(triangle, other) {
+                    taken[other as usize] = true;
                     grown.push(other);
                 }
             }
@@ -242,17 +232,32 @@ impl Placed<'_> {
         grown
     }
 
+    /// Parts a curved patch into planes, each grown from the largest triangle that is left. None where there are more
+    /// than `limit` islands.
+    fn split(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
+        let mut taken = self.all_taken_but(&patch);
+        let mut seeds = patch;
+        let area = |triangle: &u32| self.faces[*triangle as usize].area.length_squared();
+        seeds.sort_by(|left, right| area(right).total_cmp(&area(left)).then(left.cmp(right)));
+        for &seed in &seeds {
+            islands.extend(Some(self.grow_plane(seed, &mut taken)).filter(|island| !island.is_empty()));
+            if islands.len() > limit {
+                return None;
+            }
+        }
+        Some(())
+    }
+
     /// Grows through triangles that lie in the plane of `seed`, to the tolerance of what has grown so far.
-    fn grow_plane(&self, seed: u32, open: &mut [bool]) -> Vec<u32> {
+    fn grow_plane(&self, seed: u32, taken: &mut [bool]) -> Vec<u32> {
         let normal = self.faces[seed as usize].normal;
         let origin = self.positions[self.triangles[seed as usize][0] as usize];
         let mut bounds = Extent::new(self.corners(seed));
-        self.grow(seed, open, |_, triangle| {
+        self.grow(seed, taken, |_, triangle| {
             let grown = self.corners(triangle).into_iter().fold(bounds, Extent::with);
             let tolerance = PLANE_TOLERANCE * grown.diagonal();
             let in_plane = |corner: DVec3| normal.dot(corner - origin).abs() <= tolerance;
-            let faces_on = self.cosine(seed, triangle) > SMOOTH_COSINES[0];
-            let joins = faces_on && self.corners(triangle).into_iter().all(in_plane);
+            let joins = self.cosine(seed, triangle) > SMOOTH_COSINE && self.corners(triangle).into_iter().all(in_plane);
             if joins {
                 bounds = grown;
             }
@@ -284,9 +289,6 @@ impl Placed<'_> {
     fn polygon(&self, island: &[u32]) -> Option<Polygon> {
         let triangles = island.iter().map(|&triangle| self.triangles[triangle as usize]);
         let normal = self.normal(island);
-        if normal == DVec3::ZERO {
-            return None;
-        }
         let contours = outline(triangles, &self.positions, normal);
         (!contours.is_empty()).then(|| Polygon { contours, normal: normal.as_vec3() })
     }
@@ -312,6 +314,3 @@ impl Extent {
         self.min.distance(self.max)
     }
 }
-
-#[cfg(test)]
-mod tests;

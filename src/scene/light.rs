@@ -3,7 +3,6 @@ use glam::Vec3;
 /// A polygonal area light: the planar islands of one emissive instance, all of the same radiance.
 #[derive(Clone, Debug)]
 pub struct Light {
-    /// The name of the instance, or of its mesh where that has none.
     pub name: String,
     /// Linear Rec. 709, >= 0.
     pub radiance: Vec3,

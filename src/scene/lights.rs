@@ -13,11 +13,12 @@ pub const CORNERS_MAX: usize = 8192;
 /// The most triangles of all emitters together: what is searched for islands.
 const TRIANGLES_MAX: usize = 1 << 23;
 
-/// Adds a light for every instance that emits. What is past a limit glows and lights nothing.
+/// Adds a light for every instance that emits and has no light yet. What is past a limit glows and lights nothing.
 pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
     let (mut triangles, mut corners) = (0, 0);
     let mut topologies: Vec<Option<Topology>> = scene.meshes.iter().map(|_| None).collect();
-    for (index, instance) in scene.instances.iter().enumerate() {
+    for index in scene.lights.iter().map(|light| light.instance + 1).max().unwrap_or(0)..scene.instances.len() {
+        let instance = &scene.instances[index];
         let mesh = &scene.meshes[instance.mesh];
         let material = &scene.materials[mesh.material];
         if material.emission == Vec3::ZERO {
@@ -25,20 +26,18 @@ pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
         }
         triangles += mesh.indices.len() / 3;
         if triangles > TRIANGLES_MAX {
-            let kind = format!("emitters past {TRIANGLES_MAX} triangles in all glow but light nothing");
-            notices.add(&kind, || instance.name.clone());
+            triangles -= mesh.indices.len() / 3;
+            notices.add("emitters past 8388608 triangles glow but light nothing", || instance.name.clone());
             continue;
         }
         let topology = topologies[instance.mesh].get_or_insert_with(|| Topology::new(mesh));
         let Some(polygons) = topology.polygons(mesh, instance, ISLANDS_MAX) else {
-            let kind = format!("emitters of more than {ISLANDS_MAX} flat parts glow but light nothing");
-            notices.add(&kind, || mesh.name.clone());
+            notices.add("emitters of more than 256 flat parts glow but light nothing", || mesh.name.clone());
             continue;
         };
         let own: usize = polygons.iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum();
         if corners + own > CORNERS_MAX {
-            let kind = format!("emitters past {CORNERS_MAX} corners in all glow but light nothing");
-            notices.add(&kind, || instance.name.clone());
+            notices.add("emitters past 8192 corners in all glow but light nothing", || instance.name.clone());
         } else if own > 0 {
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };

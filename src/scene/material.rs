@@ -3,7 +3,6 @@ use glam::Vec3;
 /// How a surface scatters and emits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// As in the file, maybe empty, maybe shared with others.
     pub name: String,
     /// Albedo of the diffuse base, linear Rec. 709, each in [0, 1].
     pub base_color: Vec3,
@@ -13,13 +12,6 @@ pub struct Material {
     pub emission: Vec3,
     /// Back faces are drawn and lit with the normal turned; otherwise they are culled.
     pub double_sided: bool,
-}
-
-impl Default for Material {
-    /// What glTF makes of a primitive without a material: white, matte, seen from the front.
-    fn default() -> Self {
-        Self { name: String::new(), base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
-    }
 }
 
 /// The parameters of the sheen (KHR_materials_sheen's factors).

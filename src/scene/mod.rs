@@ -16,6 +16,8 @@ mod notices;
 mod outline;
 mod rig;
 mod settings;
+#[cfg(test)]
+mod tests;
 
 use glam::Vec3;
 
@@ -36,9 +38,7 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Meshes placed in the world.
     pub instances: Vec<Instance>,
-    /// What meshes are made of.
     pub materials: Vec<Material>,
-    /// What lights the scene.
     pub lights: Vec<Light>,
     /// At least one, after loading: the first is the default view.
     pub cameras: Vec<Camera>,

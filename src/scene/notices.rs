@@ -10,17 +10,17 @@ pub(super) struct Notices {
 
 #[derive(Debug)]
 struct Notice {
-    kind: String,
+    kind: &'static str,
     first: String,
     more: usize,
 }
 
 impl Notices {
     /// Notes that `kind` (a clause that tells what is done about it) occurs at `place`.
-    pub fn add(&mut self, kind: &str, place: impl FnOnce() -> String) {
+    pub fn add(&mut self, kind: &'static str, place: impl FnOnce() -> String) {
         match self.kinds.iter_mut().find(|notice| notice.kind == kind) {
             Some(notice) => notice.more += 1,
-            None => self.kinds.push(Notice { kind: kind.to_owned(), first: place(), more: 0 }),
+            None => self.kinds.push(Notice { kind, first: place(), more: 0 }),
         }
     }
 

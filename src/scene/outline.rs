@@ -54,9 +54,6 @@ fn loops(edges: Vec<(u32, u32)>) -> Vec<Vec<u32>> {
     edges.iter().rev().for_each(|&(from, to)| unused.entry(from).or_default().push(to));
     let mut loops = Vec::new();
     for &(start, _) in &edges {
-        if unused[&start].is_empty() {
-            continue;
-        }
         // The walk so far, and where on it each vertex stands. It ends where it began: elsewhere a way leads on.
         let mut walk = vec![start];
         let mut places = HashMap::from([(start, 0)]);
@@ -82,9 +79,9 @@ fn loops(edges: Vec<(u32, u32)>) -> Vec<Vec<u32>> {
 /// Which vertices of a closed loop to keep so that no dropped one is further than `tolerance` from the line that
 /// replaces it: from each kept vertex the line is drawn out as long as some direction passes near all in between.
 fn bends(points: &[DVec2], tolerance: f64) -> Vec<usize> {
-    // Whatever the shape, what lies furthest from one of its points is a corner, and by far enough to defy rounding.
-    let distance = |&at: &usize| points[at].distance_squared(points[0]);
-    let Some(start) = (0..points.len()).max_by(|left, right| distance(left).total_cmp(&distance(right))) else {
+    // The lowest of the leftmost is a corner, whatever the shape.
+    let order = |left: &DVec2, right: &DVec2| left.x.total_cmp(&right.x).then(left.y.total_cmp(&right.y));
+    let Some(start) = (0..points.len()).min_by(|&left, &right| order(&points[left], &points[right])) else {
         return Vec::new();
     };
     let at = |step: usize| (start + step) % points.len();

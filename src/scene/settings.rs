@@ -5,7 +5,6 @@ use super::{Material, Sheen};
 /// What a picture is made with beside its scene: shared by every way of rendering it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Which parts of the surfaces' radiance are summed.
     pub lobes: Lobes,
     /// Emitters that light the scene are drawn.
     pub lights_visible: bool,
@@ -47,29 +46,5 @@ pub struct Lobes {
 impl Default for Lobes {
     fn default() -> Self {
         Self { sheen: true, diffuse: true, emission: true }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn settings_win_over_materials() {
-        let own = Sheen { color: Vec3::X, roughness: 0.2 };
-        let black = Sheen { color: Vec3::ZERO, roughness: 0.2 };
-        let sheen = |alpha, sheen_color, sheen| {
-            Settings { alpha, sheen_color, ..Settings::default() }.sheen_of(&Material { sheen, ..Material::default() })
-        };
-        assert_eq!(sheen(None, None, Some(own)), Some(own));
-        assert_eq!(sheen(None, None, Some(black)), None);
-        assert_eq!(sheen(None, None, None), None);
-        assert_eq!(sheen(Some(0.7), None, Some(own)), Some(Sheen { roughness: 0.7, ..own }));
-        assert_eq!(sheen(None, Some(Vec3::Y), Some(own)), Some(Sheen { color: Vec3::Y, ..own }));
-        for without in [None, Some(black)] {
-            assert_eq!(sheen(Some(0.7), None, without), Some(Sheen { color: Vec3::ONE, roughness: 0.7 }));
-            assert_eq!(sheen(None, Some(Vec3::Y), without), Some(Sheen { color: Vec3::Y, roughness: 0.5 }));
-        }
-        assert_eq!(sheen(Some(0.1), Some(Vec3::Y), Some(own)), Some(Sheen { color: Vec3::Y, roughness: 0.1 }));
     }
 }

@@ -1,19 +1,18 @@
 //! Typed reading of accessors, every range checked.
 
-use std::rc::Rc;
-
 use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{self, Root};
 
 use super::Fault;
+use super::buffers::{self, Bytes};
 use crate::scene::error::label;
 
-/// The accessors of a file with what they read: known to lie within their views, and these within their buffers.
+/// The accessors of a file with what they read.
 pub struct Accessors<'a> {
     pub root: &'a Root,
-    buffers: &'a [Rc<[u8]>],
+    pub buffers: &'a [Bytes<'a>],
 }
 
 /// The layout of an accessor's elements within its view, in bytes.
@@ -40,31 +39,24 @@ impl<'a> Elements<'a> {
 
 impl<'a> Accessors<'a> {
     /// Checks the layout of every accessor, read or not, against its view, and every view against its buffer.
-    /// `buffers` are as long as the root's say.
-    pub fn new(root: &'a Root, buffers: &'a [Rc<[u8]>]) -> Result<Self, Fault> {
-        let accessors = Self { root, buffers };
-        accessors.check_views()?;
-        (0..root.accessors.len()).try_for_each(|index| accessors.layout(index).map(|_| ()))?;
-        Ok(accessors)
-    }
-
-    fn check_views(&self) -> Result<(), Fault> {
+    pub fn check(&self) -> Result<(), Fault> {
         for (index, view) in self.root.buffer_views.iter().enumerate() {
             let place = || label("bufferView", index, view.name.as_deref());
             let wrong = |what: String| Fault::at(place(), format_args!("{what}; export the file again"));
-            let length = self.root.buffers[view.buffer.value()].byte_length.0;
+            let buffer = self.root.buffers.get(view.buffer.value());
+            let length = buffer.ok_or_else(|| wrong(format!("there is no buffer {}", view.buffer)))?.byte_length.0;
             let (offset, bytes) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
             if bytes == 0 || offset.checked_add(bytes).is_none_or(|end| end > length) {
                 let what = format!("{bytes} bytes from {offset} do not lie in buffer {}'s {length}", view.buffer);
                 return Err(wrong(what));
             }
             if let Some(stride) = view.byte_stride.map(|stride| stride.0)
-                && !((4..=252).contains(&stride) && stride.is_multiple_of(4))
+                && !(4..=252).contains(&stride) | !stride.is_multiple_of(4)
             {
                 return Err(wrong(format!("byteStride {stride} is no multiple of 4 from 4 to 252")));
             }
         }
-        Ok(())
+        (0..self.root.accessors.len()).try_for_each(|index| self.layout(index).map(|_| ()))
     }
 
     /// The positions, or other triples of finite floats, of an accessor: those `used`, or all.
@@ -93,21 +85,18 @@ impl<'a> Accessors<'a> {
         Ok((0..elements.count).map(|at| read(elements.get(at))).collect())
     }
 
-    /// The bytes of all buffers; those of one file behind several count once.
-    pub fn bytes(&self) -> u64 {
-        let mut parts: Vec<(*const u8, usize)> = self.buffers.iter().map(|part| (part.as_ptr(), part.len())).collect();
-        parts.sort_unstable();
-        parts.dedup();
-        parts.iter().map(|&(_, length)| length as u64).sum()
-    }
-
     /// How many elements can be read.
     pub fn count(&self, index: usize) -> Result<usize, Fault> {
         Ok(self.elements(index)?.count)
     }
 
+    fn get(&self, index: usize) -> Result<&'a json::Accessor, Fault> {
+        let missing = || Fault::new(format_args!("there is no accessor {index}; export the file again"));
+        self.root.accessors.get(index).ok_or_else(missing)
+    }
+
     fn expect(&self, index: usize, components: &[ComponentType], kind: Type) -> Result<&'a json::Accessor, Fault> {
-        let accessor = &self.root.accessors[index];
+        let accessor = self.get(index)?;
         let Valid(component) = accessor.component_type else { return Err(self.unknown_type(index)) };
         if accessor.type_ == Valid(kind) && components.contains(&component.0) {
             return Ok(accessor);
@@ -119,26 +108,18 @@ impl<'a> Accessors<'a> {
     }
 
     fn unknown_type(&self, index: usize) -> Fault {
-        let name = self.root.accessors[index].name.as_deref();
+        let name = self.root.accessors.get(index).and_then(|accessor| accessor.name.as_deref());
         Fault::at(label("accessor", index, name), "its type or componentType is none of glTF's; export the file again")
-    }
-
-    /// The bytes of a view, which lie in its buffer.
-    fn view(&self, index: usize) -> &'a [u8] {
-        let view = &self.root.buffer_views[index];
-        // No more than the buffer's length, which is that of bytes in memory.
-        let [start, length] = [view.byte_offset.unwrap_or_default(), view.byte_length].map(|bytes| bytes.0 as usize);
-        &self.buffers[view.buffer.value()][start..][..length]
     }
 
     /// The elements, all there.
     fn elements(&self, index: usize) -> Result<Elements<'a>, Fault> {
-        let accessor = &self.root.accessors[index];
+        let accessor = self.get(index)?;
         let place = || label("accessor", index, accessor.name.as_deref());
         if accessor.sparse.is_some() {
             return Err(Fault::at(place(), "is sparse, which is not served; export the file without sparse accessors"));
         }
-        let view = accessor.buffer_view.map(|view| self.view(view.value()));
+        let view = accessor.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
         let (Some(bytes), Some(layout)) = (view, self.layout(index)?) else {
             let what = "has no bufferView (a compressed mesh perhaps); export the file without compression";
             return Err(Fault::at(place(), what));
@@ -151,7 +132,7 @@ impl<'a> Accessors<'a> {
 
     /// Where the elements lie, none where there is no view. They lie within the view.
     fn layout(&self, index: usize) -> Result<Option<Layout>, Fault> {
-        let accessor = &self.root.accessors[index];
+        let accessor = self.get(index)?;
         let wrong = |what: String| {
             Fault::at(label("accessor", index, accessor.name.as_deref()), format_args!("{what}; export the file again"))
         };
@@ -163,7 +144,8 @@ impl<'a> Accessors<'a> {
             return Err(wrong("count is 0".to_owned()));
         }
         let Some(view_index) = accessor.buffer_view else { return Ok(None) };
-        let view = &self.root.buffer_views[view_index.value()];
+        let view = self.root.buffer_views.get(view_index.value());
+        let view = view.ok_or_else(|| wrong(format!("there is no bufferView {view_index}")))?;
         let element = (component.0.size() * kind.multiplicity()) as u64;
         let stride = view.byte_stride.map_or(element, |stride| stride.0 as u64);
         let offset = accessor.byte_offset.unwrap_or_default().0;

@@ -2,29 +2,31 @@
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DMat4, DVec3, Vec3};
+use glam::{DAffine3, DMat4, Vec3};
 use gltf::json::Root;
 
 use super::accessor::Accessors;
 use super::nodes::{Placed, node_label};
 use super::primitives::Reader;
-use super::{Fault, name};
+use super::{Fault, cut, materials};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Bounds, Instance, Material, Scene};
+use crate::scene::{Bounds, Instance, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
-/// Metres from the origin within which things stand: beyond Saturn, and the cube of it fits in 32-bit floats.
-const REACH: f64 = 1e12;
+/// Metres from the origin within which things stand: beyond the Moon, and with lights set up around them the cube of all
+/// distances fits in 32-bit floats.
+const REACH: f64 = 1e10;
 /// A transform whose axes, made unit, span less than this much volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
 /// Shortest axis of a transform: the square of anything shorter is nothing in 32-bit floats.
 const SHORTEST: f64 = 1e-18;
 
 /// `mesh 3 "sleeve" primitive 0`.
-fn primitive_label(root: &Root, mesh: usize, primitive: usize) -> String {
-    format!("{} primitive {primitive}", label("mesh", mesh, root.meshes[mesh].name.as_deref()))
+pub fn primitive_label(root: &Root, mesh: usize, primitive: usize) -> String {
+    let name = root.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref());
+    format!("{} primitive {primitive}", label("mesh", mesh, name))
 }
 
 /// Fills a scene.
@@ -56,14 +58,15 @@ impl<'a> Assembly<'a> {
             self.load(mesh.value())?;
             let wrong = |what: String| Fault::at(node_label(self.root, index), what);
             for &(mesh, bounds) in &self.meshes[&mesh.value()] {
-                check_reach(world_from_node, bounds.min.abs().max(bounds.max.abs())).map_err(wrong)?;
+                check_reach(world_from_node, bounds.corners()).map_err(wrong)?;
                 if is_singular(world_from_node) {
+                    self.notices.add("things scaled to nothing are not drawn", || node_label(self.root, index));
                     continue;
                 }
                 if self.scene.instances.len() == INSTANCES_MAX {
                     return Err(wrong(format!("more than {INSTANCES_MAX} primitives at nodes; split the file")));
                 }
-                let name = name(node.name.as_deref());
+                let name = cut(node.name.as_deref().unwrap_or_default());
                 let world_from_mesh = DMat4::from(world_from_node).as_mat4();
                 self.scene.instances.push(Instance { name, mesh, world_from_mesh });
             }
@@ -92,23 +95,20 @@ impl<'a> Assembly<'a> {
 
     fn default_material(&mut self) -> usize {
         *self.default_material.get_or_insert_with(|| {
-            self.scene.materials.push(Material { name: "default".to_owned(), ..Material::default() });
+            self.scene.materials.push(materials::default_material());
             self.scene.materials.len() - 1
         })
     }
 }
 
-/// Whether 32-bit floats can place points whose coordinates are up to `extent`; else what is wrong.
-pub fn check_reach(world_from_node: DAffine3, extent: Vec3) -> Result<(), String> {
+/// Whether `points` stand, placed, where 32-bit floats can work with them; else what is wrong.
+pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N]) -> Result<(), String> {
     let matrix = world_from_node.matrix3;
-    // No sum on the way to a placed coordinate is greater.
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::abs);
-    let extent = extent.as_dvec3();
-    let reach = x * extent.x + y * extent.y + z * extent.z + world_from_node.translation.abs();
-    let values = [reach, x, y, z].into_iter().flat_map(|vector| vector.to_array());
-    match values.into_iter().find(|value| value.is_nan() || *value > REACH) {
+    let entries = matrix.to_cols_array().into_iter().chain(world_from_node.translation.to_array());
+    let placed = points.into_iter().flat_map(|point| world_from_node.transform_point3(point.as_dvec3()).to_array());
+    match entries.chain(placed).find(|value| value.is_nan() || value.abs() > REACH) {
         None => Ok(()),
-        Some(value) => Err(format!("reaches {value:e} m in the world; bring it within {REACH:e} m of the origin")),
+        Some(value) => Err(format!("reaches {value:.2e} m in the world; bring it within {REACH:e} m of the origin")),
     }
 }
 

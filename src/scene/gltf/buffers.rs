@@ -4,50 +4,74 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
+use std::ops::Deref;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use gltf::json;
 use percent_encoding::percent_decode_str;
 
 use super::Fault;
 use super::container::Document;
-use crate::scene::error::{cut, label};
+use crate::scene::error::label;
 
 /// The most that is read from one file: what a .glb can say of its own length.
 const FILE_BYTES_MAX: u64 = u32::MAX as u64;
+
+/// The most memory that is asked for on a file system's word alone.
+const RESERVE_MAX: u64 = 1 << 28;
+
+/// A buffer's bytes.
+pub enum Bytes<'a> {
+    /// In the .glb itself.
+    Within(&'a [u8]),
+    Read(Rc<Vec<u8>>),
+}
+
+impl Deref for Bytes<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Within(bytes) => bytes,
+            Self::Read(bytes) => bytes,
+        }
+    }
+}
 
 /// Reads a file that must be an ordinary one: no folder, and nothing that never ends.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     let unreadable = |error: std::io::Error| Fault::new(format_args!("can't be read ({error}); check the path"));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(Fault::new("is a folder; name a file"));
+        return Err(Fault::new("is a folder; give a .gltf or .glb file"));
     }
     if !metadata.is_file() {
-        return Err(Fault::new("is no ordinary file; name one that is"));
+        return Err(Fault::new("is no ordinary file; give a .gltf or .glb file"));
     }
     if metadata.len() > FILE_BYTES_MAX {
         let length = metadata.len();
         return Err(Fault::new(format_args!("{length} bytes long; files of up to {FILE_BYTES_MAX} are served")));
     }
-    let mut bytes = Vec::new();
+    // What is said to be long need not be: room is made for so much at first, and for more as it comes.
+    let mut bytes = Vec::with_capacity(metadata.len().min(RESERVE_MAX) as usize);
     File::open(path).and_then(|file| file.take(FILE_BYTES_MAX).read_to_end(&mut bytes)).map_err(unreadable)?;
     Ok(bytes)
 }
 
 /// The bytes of every buffer, each as long as the file says. `folder` is where external ones stand; without one there
 /// are none.
-pub fn load(document: &Document, folder: Option<&Path>) -> Result<Vec<Rc<[u8]>>, Fault> {
+pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<Bytes<'a>>, Fault> {
     // The same file may stand behind many buffers: its bytes are held once.
     let mut files = HashMap::new();
     let mut buffers = Vec::with_capacity(document.root.buffers.len());
     for (index, buffer) in document.root.buffers.iter().enumerate() {
         let place = || label("buffer", index, buffer.name.as_deref());
         let bytes = match (&buffer.uri, document.binary) {
-            (Some(uri), _) => fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?,
-            (None, Some(binary)) if index == 0 => binary.into(),
+            (Some(uri), _) => Bytes::Read(fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?),
+            (None, Some(binary)) if index == 0 => Bytes::Within(binary),
             (None, _) => {
                 let what = "has no data (no URI; a compressed one perhaps); export the file without compression";
                 return Err(Fault::at(place(), what));
@@ -63,16 +87,16 @@ pub fn load(document: &Document, folder: Option<&Path>) -> Result<Vec<Rc<[u8]>>,
     Ok(buffers)
 }
 
-fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<[u8]>>) -> Result<Rc<[u8]>, Fault> {
+fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<Vec<u8>>>) -> Result<Rc<Vec<u8>>, Fault> {
     if let Some(data) = uri.strip_prefix("data:") {
-        return decode(data).map(Into::into);
+        return decode(data).map(Rc::new);
     }
     let path = resolve(uri, folder)?;
     let identity = path.canonicalize().unwrap_or_else(|_| path.clone());
     if let Some(bytes) = files.get(&identity) {
         return Ok(Rc::clone(bytes));
     }
-    let bytes: Rc<[u8]> = read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?.into();
+    let bytes = Rc::new(read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?);
     files.insert(identity, Rc::clone(&bytes));
     Ok(bytes)
 }
@@ -87,7 +111,8 @@ fn decode(data: &str) -> Result<Vec<u8>, Fault> {
 
 /// A path within the scene's folder: a scene is no way to reach other files of its user.
 fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
-    let refuse = |why: &str| Fault::new(format_args!("its URI '{}' {why}", cut(uri, 100)));
+    let shown: String = uri.chars().take(200).collect();
+    let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
     let folder = folder.ok_or_else(|| refuse("names a file, and this scene has no folder; give a .glb file"))?;
     if uri.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/')) {
         return Err(refuse("has a scheme; give a path relative to the scene's folder"));
@@ -102,4 +127,12 @@ fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
         ));
     }
     Ok(folder.join(path))
+}
+
+/// The part of its buffer that a view shows.
+pub fn view<'a>(root: &json::Root, buffers: &'a [Bytes], index: usize) -> Option<&'a [u8]> {
+    let view = root.buffer_views.get(index)?;
+    let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
+    let length = usize::try_from(view.byte_length.0).ok()?;
+    buffers.get(view.buffer.value())?.get(start..start.checked_add(length)?)
 }

@@ -19,14 +19,15 @@ pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec
     for &Placed { node: index, world_from_node } in placed {
         let node = &root.nodes[index];
         let Some(camera) = node.camera.map(|camera| camera.value()) else { continue };
-        assembly::check_reach(world_from_node, Vec3::ZERO).map_err(|what| Fault::at(node_label(root, index), what))?;
+        assembly::check_reach(world_from_node, [Vec3::ZERO])
+            .map_err(|what| Fault::at(node_label(root, index), what))?;
         let name = root.cameras[camera].name.as_ref().or(node.name.as_ref());
         match world_from_camera(world_from_node) {
             None => {
                 notices.add("cameras without a direction, scaled to nothing, are left out", || node_label(root, index))
             }
             Some(world_from_camera) => {
-                let name = super::name(name.map(String::as_str));
+                let name = super::cut(name.map_or("", String::as_str));
                 cameras.push((camera, Camera { name, world_from_camera, projection: projections[camera] }));
             }
         }

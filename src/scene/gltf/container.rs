@@ -49,16 +49,20 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 /// The data of the first chunk, which must be of `kind`, and what follows it.
 fn split_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Result<(&'a [u8], &'a [u8]), Fault> {
-    let name = kind.escape_ascii();
-    let cut = || Fault::new(format_args!("the .glb's '{name}' chunk is cut short; copy or export the file again"));
+    let name = String::from_utf8_lossy(kind.strip_suffix(b"\0").unwrap_or(kind));
+    let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
     let header = bytes.get(..CHUNK_HEADER).ok_or_else(cut)?;
     if header[4..] != kind[..] {
         let found = header[4..].escape_ascii();
-        let what = format_args!("the .glb holds a chunk '{found}' in the place of '{name}'; export it again");
+        let what = format_args!("the .glb holds a chunk '{found}' in the {name} chunk's place; export it again");
         return Err(Fault::new(what));
     }
-    let rest = &bytes[CHUNK_HEADER..];
-    rest.split_at_checked(le_u32(&header[..4]) as usize).ok_or_else(cut)
+    let length = le_u32(&header[..4]) as usize;
+    if !length.is_multiple_of(4) {
+        let what = format_args!("the .glb's {name} chunk is {length} bytes long, no multiple of 4; export it again");
+        return Err(Fault::new(what));
+    }
+    bytes[CHUNK_HEADER..].split_at_checked(length).ok_or_else(cut)
 }
 
 fn le_u32(bytes: &[u8]) -> u32 {

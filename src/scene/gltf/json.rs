@@ -1,60 +1,63 @@
-//! From text to glTF's JSON: the version, the types of all values, and that indices point to something.
-
-use std::collections::HashMap;
+//! From text to glTF's JSON: the version, and the types of all values.
 
 use gltf::json::Root;
-use serde_json::{Map, Number, Value};
+use serde_json::{Map, Value};
 
 use super::Fault;
 
 /// The most of anything that a file may hold: a few bytes of JSON make hundreds in memory.
 const COUNT_MAX: usize = 1 << 20;
 
-/// Members that hold an index, or a list of them, and the root's list that they point into.
-const INDICES: [(&str, &str); 19] = [
-    ("attribute", "accessors"),
-    ("buffer", "buffers"),
-    ("bufferView", "bufferViews"),
-    ("camera", "cameras"),
-    ("children", "nodes"),
-    ("index", "textures"),
-    ("indices", "accessors"),
-    ("input", "accessors"),
-    ("inverseBindMatrices", "accessors"),
-    ("joints", "nodes"),
-    ("material", "materials"),
-    ("mesh", "meshes"),
-    ("node", "nodes"),
-    ("nodes", "nodes"),
-    ("output", "accessors"),
-    ("scene", "scenes"),
-    ("skeleton", "nodes"),
-    ("skin", "skins"),
-    ("source", "images"),
+/// Members whose numbers index, or stand for, something. Their type in `Root` is 32 bits wide, and wider numbers wrap.
+const INDICES: [&str; 19] = [
+    "buffer",
+    "bufferView",
+    "camera",
+    "children",
+    "componentType",
+    "index",
+    "indices",
+    "input",
+    "joints",
+    "material",
+    "mesh",
+    "mode",
+    "node",
+    "nodes",
+    "output",
+    "sampler",
+    "scene",
+    "skeleton",
+    "skin",
 ];
-
-/// Members that stand for something by a number. `Root` takes 32 bits of them and would not see the rest.
-const NUMBERS: [&str; 3] = ["componentType", "mode", "target"];
 
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
 pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
-    let not_gltf = |error| Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file"));
-    let mut value: Value = serde_json::from_slice(json).map_err(not_gltf)?;
+    let mut value: Value = serde_json::from_slice(json).map_err(|error| match is_object(json) {
+        true => Fault::new(format_args!("its JSON is broken ({error}); correct it or export the file again")),
+        false => Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file")),
+    })?;
     let Value::Object(root) = &mut value else {
         return Err(Fault::new("not a glTF file (its JSON is no object); give a .gltf or .glb file"));
     };
     check_version(root)?;
+    // Nobody plays these, and `Root` wants more of them than glTF does.
+    root.remove("animations");
     check_counts(root)?;
     for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
         // glTF lets a scene be empty; `Root` doesn't.
         scene.as_object_mut().map(|scene| scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new())));
     }
-    let counts = root.iter().filter_map(|(key, value)| Some((key.clone(), value.as_array()?.len() as u64))).collect();
     for (key, value) in root.iter_mut() {
-        prepare(&counts, key, value).map_err(|(path, what)| Fault::at(format_args!("{key}{path}"), what))?;
+        prepare(key, value)?;
     }
     let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
-    serde_path_to_error::deserialize(&value).map_err(wrong)
+    serde_path_to_error::deserialize(value).map_err(wrong)
+}
+
+/// Whether text begins as a JSON object does: then it is meant to be one.
+fn is_object(json: &[u8]) -> bool {
+    json.trim_ascii_start().starts_with(b"{")
 }
 
 /// glTF 2.x, told before anything else is: a file of glTF 1 is wrong in many other ways.
@@ -87,39 +90,24 @@ fn check_counts(root: &Map<String, Value>) -> Result<(), Fault> {
     }
 }
 
-/// Drops what nobody reads and checks every index against the length of its list, outside of extensions. An error comes
-/// with its path from here. Recurses as deep as the JSON, which its parser bounds to 128.
-fn prepare(counts: &HashMap<String, u64>, key: &str, value: &mut Value) -> Result<(), (String, String)> {
+/// Drops what nobody reads and refuses indices that would wrap. As deep as the JSON, which its parser bounds to 128.
+fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
     match value {
         Value::Object(members) => {
             members.remove("extras");
-            // The members of these have names of the file's choice.
-            let key = ["attributes", "targets"].contains(&key).then_some("attribute");
-            for (name, member) in members.iter_mut().filter(|(name, _)| *name != "extensions") {
-                prepare(counts, key.unwrap_or(name), member)
-                    .map_err(|(path, what)| (format!(".{name}{path}"), what))?;
+            for (name, member) in members {
+                prepare(if key == "attributes" { "index" } else { name }, member)?;
             }
         }
         Value::Array(elements) => {
-            for (index, element) in elements.iter_mut().enumerate() {
-                prepare(counts, key, element).map_err(|(path, what)| (format!("[{index}]{path}"), what))?;
+            for element in elements {
+                prepare(key, element)?;
             }
         }
-        Value::Number(number) => return check_index(counts, key, number).map_err(|what| (String::new(), what)),
+        Value::Number(number) if INDICES.contains(&key) && number.as_u64().is_some_and(|n| n > u32::MAX.into()) => {
+            return Err(Fault::at(key, format_args!("the index {number} is out of range; export the file again")));
+        }
         _ => {}
     }
     Ok(())
-}
-
-fn check_index(counts: &HashMap<String, u64>, key: &str, number: &Number) -> Result<(), String> {
-    // Numbers of other kinds are of the wrong type, which is told later.
-    let Some(index) = number.as_u64() else { return Ok(()) };
-    if NUMBERS.contains(&key) && index > u32::MAX.into() {
-        return Err(format!("{index} is none of glTF's values; export the file again"));
-    }
-    let Some((_, list)) = INDICES.iter().find(|(name, _)| *name == key) else { return Ok(()) };
-    match counts.get(*list).copied().unwrap_or(0) {
-        count if index < count => Ok(()),
-        count => Err(format!("index {index} is out of range (the file has {count} {list}); export the file again")),
-    }
 }

@@ -1,22 +1,22 @@
 //! Materials: the factors that are drawn, with their ranges checked.
 
-use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use glam::Vec3;
 use gltf::json::material::AlphaMode;
+use gltf::json::texture::{Info, Texture};
 use gltf::json::validation::Checked;
-use gltf::json::{self, Root};
+use gltf::json::{self, Index, Root};
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::Fault;
-use crate::scene::error::{cut, label};
+use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Sheen};
 
 const SHEEN: &str = "KHR_materials_sheen";
-const TEXTURES: &str = "textures are not drawn yet, only the factors beside them";
-const EXTENSIONS_SHOWN: usize = 20;
+const SHEEN_TEXTURES: [&str; 2] = ["sheenColorTexture", "sheenRoughnessTexture"];
 
 /// In the order of `Scene::materials`: the file's own.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
@@ -25,9 +25,13 @@ pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> 
         note(material, &place, notices);
         read_one(material).map_err(|what| Fault::at(place(), what))
     };
-    let materials = root.materials.iter().enumerate().map(read).collect::<Result<_, _>>()?;
-    note_extensions(root, notices);
-    Ok(materials)
+    root.materials.iter().enumerate().map(read).collect()
+}
+
+/// What a primitive without a material is made of, by glTF.
+pub fn default_material() -> Material {
+    let name = "default".to_owned();
+    Material { name, base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
 }
 
 fn read_one(material: &json::Material) -> Result<Material, String> {
@@ -45,7 +49,7 @@ fn read_one(material: &json::Material) -> Result<Material, String> {
     let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
     let [strength] = in_range("emissiveStrength", [strength], 0.0..=f32::MAX)?;
     Ok(Material {
-        name: super::name(material.name.as_deref()),
+        name: super::cut(material.name.as_deref().unwrap_or_default()),
         base_color: Vec3::new(base_color[0], base_color[1], base_color[2]),
         sheen: extensions.and_then(|extensions| extensions.others.get(SHEEN)).map(read_sheen).transpose()?,
         emission: emissive * strength,
@@ -62,19 +66,28 @@ fn read_sheen(value: &Value) -> Result<Sheen, String> {
         Some(value) => {
             let color = value.as_array().and_then(|color| color.iter().map(number).collect::<Option<Vec<f32>>>());
             let color = color.and_then(|color| <[f32; 3]>::try_from(color).ok());
-            color.ok_or_else(|| {
-                format!("sheenColorFactor is {}, not three numbers; correct it", cut(&value.to_string(), 40))
-            })?
+            color.ok_or_else(|| format!("sheenColorFactor is {}, not three numbers; correct it", brief(value)))?
         }
     };
     let roughness = match members.get("sheenRoughnessFactor") {
         None => 0.0,
-        Some(value) => number(value)
-            .ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", cut(&value.to_string(), 40)))?,
+        Some(value) => {
+            number(value).ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", brief(value)))?
+        }
     };
+    for name in SHEEN_TEXTURES {
+        let broken = |error| format!("{name} is broken ({error}); correct it");
+        members.get(name).map(texture).transpose().map_err(broken)?;
+    }
     let color = Vec3::from(in_unit("sheenColorFactor", color)?);
     let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
     Ok(Sheen { color, roughness })
+}
+
+/// JSON as it can stand in a line.
+fn brief(value: &Value) -> String {
+    let text = value.to_string();
+    if text.chars().count() > 40 { text.chars().take(37).chain("...".chars()).collect() } else { text }
 }
 
 fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
@@ -89,42 +102,41 @@ fn in_range<const N: usize>(name: &str, values: [f32; N], range: RangeInclusive<
     }
 }
 
+/// The textures of a material by their members' names.
+pub fn textures(material: &json::Material) -> Vec<(&'static str, Index<Texture>)> {
+    let pbr = &material.pbr_metallic_roughness;
+    let sheen = material.extensions.as_ref().and_then(|extensions| extensions.others.get(SHEEN));
+    let of_sheen = |name| sheen.and_then(|sheen| texture(sheen.get(name)?).ok());
+    let textures = [
+        ("baseColorTexture", pbr.base_color_texture.as_ref().map(|texture| texture.index)),
+        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.as_ref().map(|texture| texture.index)),
+        ("normalTexture", material.normal_texture.as_ref().map(|texture| texture.index)),
+        ("occlusionTexture", material.occlusion_texture.as_ref().map(|texture| texture.index)),
+        ("emissiveTexture", material.emissive_texture.as_ref().map(|texture| texture.index)),
+        (SHEEN_TEXTURES[0], of_sheen(SHEEN_TEXTURES[0])),
+        (SHEEN_TEXTURES[1], of_sheen(SHEEN_TEXTURES[1])),
+    ];
+    textures.into_iter().filter_map(|(name, texture)| Some((name, texture?))).collect()
+}
+
+fn texture(value: &Value) -> Result<Index<Texture>, serde_json::Error> {
+    Info::deserialize(value).map(|info| info.index)
+}
+
 /// Notes what of a material is not drawn.
 fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Notices) {
-    let pbr = &material.pbr_metallic_roughness;
-    let extensions = material.extensions.as_ref();
-    let textures = [
-        ("baseColorTexture", pbr.base_color_texture.is_some()),
-        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.is_some()),
-        ("normalTexture", material.normal_texture.is_some()),
-        ("occlusionTexture", material.occlusion_texture.is_some()),
-        ("emissiveTexture", material.emissive_texture.is_some()),
-    ];
-    for (texture, _) in textures.iter().filter(|(_, there)| *there) {
-        notices.add(TEXTURES, || format!("{texture} of {}", place()));
+    for (texture, _) in textures(material) {
+        notices.add("textures are not drawn yet, only the factors beside them", || format!("{texture} of {}", place()));
     }
-    if pbr.metallic_factor.0 > 0.0 {
+    if material.pbr_metallic_roughness.metallic_factor.0 > 0.0 {
         notices.add("metals are drawn with their base color as a diffuse one", place);
     }
     if !matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {
         notices.add("transparent materials are drawn opaque", place);
     }
-    let sheen = extensions.and_then(|extensions| extensions.others.get(SHEEN));
-    if sheen
-        .is_some_and(|sheen| ["sheenColorTexture", "sheenRoughnessTexture"].iter().any(|key| sheen.get(key).is_some()))
-    {
-        notices.add(TEXTURES, || format!("{SHEEN}'s of {}", place()));
-    }
-}
-
-/// Notes the extensions that are not served, all in one line.
-fn note_extensions(root: &Root, notices: &mut Notices) {
-    let of_materials = root.materials.iter().filter_map(|material| material.extensions.as_ref());
-    let of_materials = of_materials.flat_map(|extensions| extensions.others.keys());
-    let names: BTreeSet<&String> = root.extensions_used.iter().chain(of_materials).collect();
-    let names = names.into_iter().filter(|name| !super::SERVED.contains(&name.as_str())).map(|name| cut(name, 60));
-    let names: Vec<String> = names.take(EXTENSIONS_SHOWN).collect();
-    if !names.is_empty() {
-        notices.add("extensions that are not served are passed over", || names.join(", "));
+    for name in material.extensions.iter().flat_map(|extensions| extensions.others.keys()) {
+        if name != SHEEN {
+            notices.add("material extensions that are not drawn", || format!("{name} of {}", place()));
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! glTF 2.0 in (.gltf and .glb).
 //!
-//! Files come from anywhere, so nothing in them is believed: `json` proves the types of values and that indices point to
-//! something, `accessor` that data is there, `nodes` that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
+//! Files come from anywhere, so nothing in them is believed: [`json`] proves the types of values, [`accessor`] the
+//! ranges, [`nodes`] that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
 //! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
 
 mod accessor;
@@ -13,12 +13,13 @@ mod json;
 mod materials;
 mod nodes;
 mod primitives;
+mod references;
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
 
-use super::error::{Fault, SceneError, cut};
+use super::error::{Fault, SceneError};
 use super::notices::Notices;
 use super::{Scene, framing, lights, rig};
 use ::gltf::json::Root;
@@ -28,7 +29,7 @@ use assembly::Assembly;
 /// Extensions that a file may require.
 const SERVED: [&str; 2] = ["KHR_materials_emissive_strength", "KHR_materials_sheen"];
 /// Names are cut to this many characters: many things may bear the same one.
-const NAME_MAX: usize = 128;
+const NAME_MAX: usize = 256;
 
 /// The scene in a .gltf file, with the buffers that lie beside it, or in a .glb file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
@@ -49,7 +50,9 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     let root = &document.root;
     check_extensions(root)?;
     let buffers = buffers::load(&document, folder)?;
-    let accessors = Accessors::new(root, &buffers)?;
+    let accessors = Accessors { root, buffers: &buffers };
+    accessors.check()?;
+    references::check(root)?;
     let placed = nodes::place(root)?;
     let mut notices = Notices::default();
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
@@ -58,9 +61,9 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     if scene.instances.is_empty() {
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
+    lights::add_lights(&mut scene, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
     rig::add_rig(&mut scene, &mut notices);
-    lights::add_lights(&mut scene, &mut notices);
     scene.notices = notices.into_lines().collect();
     Ok(scene)
 }
@@ -69,13 +72,13 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
     match root.extensions_required.iter().find(|name| !SERVED.contains(&name.as_str())) {
         None => Ok(()),
         Some(name) => {
-            let what = format_args!("requires {}, which is not served; export the file without it", cut(name, 60));
+            let what = format_args!("requires {}, which is not served; export the file without it", cut(name));
             Err(Fault::at("extensionsRequired", what))
         }
     }
 }
 
-/// A thing's name, empty where it has none, of a length that many things may bear.
-fn name(name: Option<&str>) -> String {
-    cut(name.unwrap_or_default(), NAME_MAX)
+/// A name of the file's, cut to a length that many things may bear.
+fn cut(name: &str) -> String {
+    name.chars().take(NAME_MAX).collect()
 }

@@ -1,8 +1,8 @@
 //! The tree of nodes: proved to be one, then walked.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
-use gltf::json::Root;
 use gltf::json::scene::Node;
+use gltf::json::{Index, Root};
 
 use super::Fault;
 use crate::scene::error::label;
@@ -18,7 +18,7 @@ pub struct Placed {
 
 /// `node 3 "sleeve"`.
 pub fn node_label(root: &Root, index: usize) -> String {
-    label("node", index, root.nodes[index].name.as_deref())
+    label("node", index, root.nodes.get(index).and_then(|node| node.name.as_deref()))
 }
 
 /// The nodes of the default scene (else the first; all of them where there is no scene), parents before children and
@@ -49,8 +49,12 @@ fn parents(root: &Root) -> Result<Vec<Option<usize>>, Fault> {
     let mut parents = vec![None; root.nodes.len()];
     for (index, node) in root.nodes.iter().enumerate() {
         for child in node.children.iter().flatten() {
-            if let Some(other) = parents[child.value()].replace(index) {
-                let what = format_args!("is a child of node {other} and of node {index}; nodes must make trees");
+            let place = || node_label(root, index);
+            let Some(parent) = parents.get_mut(child.value()) else {
+                return Err(Fault::at(place(), format_args!("there is no node {child}; export the file again")));
+            };
+            if let Some(other) = parent.replace(index) {
+                let what = format_args!("is a child of node {other} and of node {index}; give each its own copy");
                 return Err(Fault::at(node_label(root, child.value()), what));
             }
         }
@@ -82,22 +86,30 @@ fn cycle(parents: &[Option<usize>]) -> Option<usize> {
 }
 
 fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Result<Vec<usize>, Fault> {
-    // The last scene that lists each node.
-    let mut listed = vec![usize::MAX; parents.len()];
-    for (index, scene) in root.scenes.iter().enumerate() {
-        let wrong = |what: String| Fault::at(label("scene", index, scene.name.as_deref()), what);
-        for node in scene.nodes.iter().map(|node| node.value()) {
-            if let Some(parent) = parents[node] {
-                return Err(wrong(format!("node {node} is no root: it is a child of node {parent}; list its root")));
-            }
-            if std::mem::replace(&mut listed[node], index) == index {
-                return Err(wrong(format!("lists node {node} twice; list it once")));
-            }
+    let check = |scene: usize, nodes: &[Index<Node>]| {
+        let place = || label("scene", scene, root.scenes[scene].name.as_deref());
+        let mut listed = vec![false; parents.len()];
+        for node in nodes {
+            let what = match parents.get(node.value()) {
+                None => format!("there is no node {node}; export the file again"),
+                Some(Some(parent)) => format!("node {node} is no root: it is a child of node {parent}; list its root"),
+                Some(None) if std::mem::replace(&mut listed[node.value()], true) => {
+                    format!("lists node {node} twice; list it once")
+                }
+                Some(None) => continue,
+            };
+            return Err(Fault::at(place(), what));
         }
-    }
-    match root.scenes.get(root.scene.map_or(0, |scene| scene.value())) {
-        Some(scene) => Ok(scene.nodes.iter().map(|node| node.value()).collect()),
-        None => Ok((0..parents.len()).filter(|&node| parents[node].is_none()).collect()),
+        Ok(())
+    };
+    root.scenes.iter().enumerate().try_for_each(|(index, scene)| check(index, &scene.nodes))?;
+    let wanted = root.scene.map(|scene| scene.value());
+    match (wanted, root.scenes.get(wanted.unwrap_or(0))) {
+        (_, Some(scene)) => Ok(scene.nodes.iter().map(|node| node.value()).collect()),
+        (None, None) => Ok((0..parents.len()).filter(|&node| parents[node].is_none()).collect()),
+        (Some(index), None) => {
+            Err(Fault::at("scene", format_args!("there is no scene {index}; name one of the file's")))
+        }
     }
 }
 

@@ -16,12 +16,6 @@ const TRIANGLE_BYTES: u64 = 84;
 const SHARING: u64 = 64;
 const SHARING_FLOOR: u64 = 64 << 20;
 
-/// Triangles of a primitive, as indices into the vertices that are used: those listed, or all where there is no list.
-struct Corners {
-    used: Option<Vec<u32>>,
-    triangles: Vec<[u32; 3]>,
-}
-
 /// Reads primitives, within a budget of memory.
 pub struct Reader<'a> {
     accessors: Accessors<'a>,
@@ -30,8 +24,8 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(accessors: Accessors<'a>) -> Self {
-        let budget = accessors.bytes().saturating_mul(SHARING).saturating_add(SHARING_FLOOR);
-        Self { accessors, budget }
+        let bytes: u64 = accessors.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
+        Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
     /// The mesh of a primitive; none where there is nothing to draw.
@@ -54,10 +48,7 @@ impl<'a> Reader<'a> {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
-        // Compressed primitives may have plain data beside it.
-        if let Some(codec) = compression(primitive)
-            && self.accessors.root.accessors[positions.value()].buffer_view.is_none()
-        {
+        if let Some(codec) = compression(primitive) {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
         let Corners { used, triangles: mut indices } = self.corners(primitive, positions.value(), mode)?;
@@ -77,7 +68,8 @@ impl<'a> Reader<'a> {
         Ok(Some(mesh))
     }
 
-    /// There are never more vertices used than there are corners, so that what is read is paid for by indices.
+    /// The triangles of a primitive. There are never more vertices than corners, so that what is read is paid for by
+    /// indices.
     fn corners(&mut self, primitive: &Primitive, positions: usize, mode: Mode) -> Result<Corners, Fault> {
         let count = self.accessors.count(positions)?;
         if let Some(normals) = primitive.attributes.get(&Valid(Semantic::Normals)) {
@@ -109,14 +101,19 @@ impl<'a> Reader<'a> {
     }
 
     fn charge(&mut self, corners: usize, mode: Mode) -> Result<(), Fault> {
-        if corners > u32::MAX as usize / 3 {
-            return Err(Fault::new("has more triangles than 32-bit indices reach; split it"));
-        }
         let triangles = if mode == Mode::Triangles { corners / 3 } else { corners } as u64;
         let over = || Fault::new("too many primitives share the same accessors; split the file or export it again");
         self.budget = self.budget.checked_sub(triangles.saturating_mul(TRIANGLE_BYTES)).ok_or_else(over)?;
         Ok(())
     }
+}
+
+/// What a primitive makes of its vertices.
+struct Corners {
+    /// The vertices that are read, in order; all of them where there is no list.
+    used: Option<Vec<u32>>,
+    /// Of vertices by their place among those that are read.
+    triangles: Vec<[u32; 3]>,
 }
 
 /// The extension that a primitive's data is compressed with.
@@ -148,15 +145,16 @@ fn area_vector(positions: &[Vec3], [a, b, c]: [u32; 3]) -> DVec3 {
 
 /// Gives each triangle vertices of its own with its normal: what glTF asks for where there are none.
 fn flatten(mesh: &mut Mesh) {
-    let corners = std::mem::take(&mut mesh.indices);
-    let positions = std::mem::take(&mut mesh.positions);
-    for triangle in corners.chunks_exact(3) {
-        let triangle = [triangle[0], triangle[1], triangle[2]];
-        let normal = area_vector(&positions, triangle).normalize().as_vec3();
-        mesh.positions.extend(triangle.map(|corner| positions[corner as usize]));
+    let own = mesh.indices.len() == mesh.positions.len() && mesh.indices.iter().copied().eq(0..);
+    if !own {
+        mesh.positions = mesh.indices.iter().map(|&corner| mesh.positions[corner as usize]).collect();
+        mesh.indices = (0..mesh.positions.len() as u32).collect();
+    }
+    mesh.normals.reserve_exact(mesh.positions.len());
+    for triangle in mesh.indices.as_chunks::<3>().0 {
+        let normal = area_vector(&mesh.positions, *triangle).normalize().as_vec3();
         mesh.normals.extend([normal; 3]);
     }
-    mesh.indices = (0..mesh.positions.len() as u32).collect();
 }
 
 /// Makes normals unit, and those of no length the mean of their triangles'.

@@ -58,6 +58,25 @@ impl Builder {
         file
     }
 
+    /// Sets the member or element at a JSON pointer, whose parent there must be, or is made as an object.
+    pub fn set(&mut self, pointer: &str, value: Value) {
+        let mut place = &mut self.json;
+        for key in pointer.split('/').skip(1) {
+            place = match place {
+                Value::Array(elements) => &mut elements[key.parse::<usize>().unwrap()],
+                _ => &mut place[key],
+            };
+        }
+        *place = value;
+    }
+
+    /// Overwrites the bytes of an accessor's element.
+    pub fn poke(&mut self, accessor: usize, offset: usize, bytes: &[u8]) {
+        let view = self.json["accessors"][accessor]["bufferView"].as_u64().unwrap() as usize;
+        let start = self.json["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize + offset;
+        self.bytes[start..start + bytes.len()].copy_from_slice(bytes);
+    }
+
     /// Adds to one of the root's lists; gives the index.
     pub fn push(&mut self, list: &str, value: Value) -> usize {
         let list = self.json[list].as_array_mut().unwrap();

@@ -1,4 +1,4 @@
-//! Files and the files beside them.
+//! Files on disk and what stands beside them.
 
 use std::fs;
 use std::path::Path;
@@ -6,81 +6,107 @@ use std::path::Path;
 use serde_json::json;
 
 use super::builder::{Builder, check};
+use crate::scene::Scene;
 use crate::scene::gltf::load;
 
-/// A .gltf in a folder whose buffer is at `uri`, and its bytes in `file`.
-fn write(folder: &Path, uri: &str, file: &str) -> std::path::PathBuf {
-    let mut square = Builder::square();
-    square.json["buffers"][0]["uri"] = json!(uri);
-    let path = folder.join("square.gltf");
-    fs::write(&path, square.json.to_string()).unwrap();
-    if let Some(parent) = folder.join(file).parent() {
-        fs::create_dir_all(parent).unwrap();
-    }
-    fs::write(folder.join(file), &square.bytes).unwrap();
-    path
+fn error(path: &Path) -> String {
+    let error = load(path).expect_err("this is read").to_string();
+    assert_eq!(error.lines().count(), 1, "{error}");
+    error
+}
+
+/// A scene file in `folder` whose buffer stands at `uri`.
+fn with_buffer(folder: &Path, uri: &str) -> Result<Scene, String> {
+    let mut file = Builder::studio();
+    file.json["buffers"][0]["uri"] = json!(uri);
+    let path = folder.join("scene.gltf");
+    fs::write(&path, file.json.to_string()).unwrap();
+    load(&path).map_err(|error| error.to_string())
 }
 
 #[test]
-fn buffers_are_found_beside_the_file() {
-    for (uri, file) in [
-        ("square.bin", "square.bin"),
-        ("./square.bin", "square.bin"),
-        ("parts/square.bin", "parts/square.bin"),
-        ("my%20square.bin", "my square.bin"),
-        ("pl%C3%BCsch.bin", "plüsch.bin"),
-        ("a/b:c.bin", "a/b:c.bin"),
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = load(&write(folder.path(), uri, file)).unwrap();
-        check(&scene);
-        assert_eq!(scene.instances[0].name, "square");
-    }
-}
-
-#[test]
-fn other_buffers_are_refused() {
-    let outer = tempfile::tempdir().unwrap();
-    fs::write(outer.path().join("square.bin"), [0; 1000]).unwrap();
-    let folder = outer.path().join("scene");
-    fs::create_dir(&folder).unwrap();
-    let absolute = outer.path().join("square.bin").display().to_string();
-    for (uri, expected) in [
-        ("missing.bin", "missing.bin: can't be read"),
-        ("folder", "is a folder"),
-        ("http://example.org/square.bin", "has a scheme"),
-        ("file:///square.bin", "has a scheme"),
-        ("C:\\square.bin", "has a scheme"),
-        ("../square.bin", "leads out of the scene's folder"),
-        ("..%2Fsquare.bin", "leads out of the scene's folder"),
-        ("folder/../../square.bin", "leads out of the scene's folder"),
-        (&absolute, "leads out of the scene's folder"),
-        ("", "leads out of the scene's folder"),
-        ("nul%00.bin", "leads out of the scene's folder"),
-        ("%FF.bin", "is not UTF-8"),
-    ] {
-        let path = write(&folder, uri, "folder/square.bin");
-        let error = load(&path).unwrap_err().to_string();
-        assert!(error.contains("square.gltf: buffer 0: ") && error.contains(expected), "{uri}: {error}");
-        assert_eq!(error.lines().count(), 1);
-    }
-    let path = write(&folder, "short.bin", "short.bin");
-    fs::write(folder.join("short.bin"), [0; 40]).unwrap();
-    assert!(load(&path).unwrap_err().to_string().contains("its data is 40 bytes long"));
-}
-
-#[test]
-fn what_is_no_file_is_refused() {
+fn paths_to_no_file() {
     let folder = tempfile::tempdir().unwrap();
-    for (path, expected) in [
-        (folder.path().join("missing.glb"), "missing.glb: can't be read"),
-        (folder.path().join("nowhere").join("missing.glb"), "missing.glb: can't be read"),
-        (folder.path().to_owned(), "is a folder"),
-        ("".into(), "can't be read"),
-        #[cfg(unix)]
-        ("/dev/zero".into(), "/dev/zero: is no ordinary file"),
-    ] {
-        let error = load(&path).unwrap_err().to_string();
-        assert!(error.contains(expected) && error.lines().count() == 1, "{error}");
+    let missing = folder.path().join("no\nsuch.glb");
+    let error_of_missing = error(&missing);
+    assert!(error_of_missing.contains("no\\nsuch.glb: can't be read"), "{error_of_missing}");
+    assert!(error(folder.path()).contains("is a folder"));
+    assert!(error(Path::new("")).contains("can't be read"));
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_never_end() {
+    assert!(error(Path::new("/dev/zero")).contains("is no ordinary file"));
+    let folder = tempfile::tempdir().unwrap();
+    let socket = folder.path().join("scene.glb");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    assert!(error(&socket).contains("is no ordinary file"));
+    std::os::unix::fs::symlink("/dev/zero", folder.path().join("zero.bin")).unwrap();
+    let error = with_buffer(folder.path(), "zero.bin").unwrap_err();
+    assert!(error.contains("buffer 0") && error.contains("zero.bin: is no ordinary file"), "{error}");
+}
+
+#[test]
+fn a_file_larger_than_any_glb_is_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("huge.glb");
+    fs::File::create(&path).unwrap().set_len(1 << 33).unwrap();
+    assert!(error(&path).contains("8589934592 bytes long"));
+}
+
+#[test]
+fn buffers_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = Builder::studio().bytes;
+    fs::create_dir(folder.path().join("parts")).unwrap();
+    for name in ["cloth.bin", "parts/two words.bin", "parts/ünï.bin"] {
+        fs::write(folder.path().join(name), &bytes).unwrap();
     }
+    fs::write(folder.path().join("short.bin"), &bytes[..bytes.len() - 1]).unwrap();
+    for uri in ["cloth.bin", "./cloth.bin", "parts/two%20words.bin", "parts/two words.bin", "parts/%C3%BCn%C3%AF.bin"] {
+        check(&with_buffer(folder.path(), uri).unwrap());
+    }
+    for (uri, what) in [
+        ("missing.bin", "missing.bin: can't be read"),
+        ("parts", "parts: is a folder"),
+        ("short.bin", "bytes long"),
+        ("", "leads out"),
+        ("../cloth.bin", "leads out"),
+        ("/etc/passwd", "leads out"),
+        ("cloth.bin%00", "leads out"),
+        ("%ff.bin", "not UTF-8"),
+        ("https://example.com/cloth.bin", "scheme"),
+        ("file:///etc/passwd", "scheme"),
+        ("data:application/octet-stream,abc", "not base64"),
+        ("data:application/octet-stream;base64", "not base64"),
+        ("data:application/octet-stream;base64,A*", "data URI is broken"),
+        ("data:application/octet-stream;base64,AAAA", "3 bytes long"),
+    ] {
+        let error = with_buffer(folder.path(), uri).unwrap_err();
+        assert_eq!(error.lines().count(), 1, "{error}");
+        assert!(error.contains("scene.gltf: buffer 0") && error.contains(what), "{uri}: {error}");
+    }
+}
+
+#[test]
+fn many_buffers_of_one_file_are_read_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = Builder::studio();
+    let mut bytes = file.bytes.clone();
+    bytes.resize(1 << 24, 0);
+    fs::write(folder.path().join("cloth.bin"), bytes).unwrap();
+    let mut json = file.json;
+    json["buffers"] = json!(vec![json!({ "uri": "cloth.bin", "byteLength": 1 << 24 }); 10_000]);
+    fs::write(folder.path().join("scene.gltf"), json.to_string()).unwrap();
+    // Held apart these would be 160 GB.
+    check(&load(&folder.path().join("scene.gltf")).unwrap());
+}
+
+#[test]
+fn a_scene_without_a_folder_reads_no_files() {
+    let mut file = Builder::studio();
+    file.json["buffers"][0]["uri"] = json!("cloth.bin");
+    let error = crate::scene::gltf::from_slice(file.json.to_string().as_bytes(), "memory").unwrap_err().to_string();
+    assert!(error.contains("memory: buffer 0") && error.contains("no folder"), "{error}");
 }

@@ -1,7 +1,8 @@
 //! Small files made in memory, read back.
 
 mod builder;
+mod bytes;
 mod files;
-mod hostile;
 mod mutations;
 mod reads;
+mod values;

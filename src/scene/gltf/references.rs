@@ -1,0 +1,71 @@
+//! Indices from one list of the file into another: those that are not checked where they are followed.
+
+use gltf::json::{Index, Root};
+
+use super::assembly::primitive_label;
+use super::nodes::node_label;
+use super::{Fault, materials};
+use crate::scene::error::label;
+
+/// Checks what nodes, primitives, materials, textures, images and skins refer to, in the scene or not.
+pub fn check(root: &Root) -> Result<(), Fault> {
+    for (index, node) in root.nodes.iter().enumerate() {
+        let place = || node_label(root, index);
+        within("mesh", root.meshes.len(), &node.mesh, place)?;
+        within("camera", root.cameras.len(), &node.camera, place)?;
+        within("skin", root.skins.len(), &node.skin, place)?;
+    }
+    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        for (index, primitive) in primitives.iter().enumerate() {
+            let place = || primitive_label(root, mesh, index);
+            let targets = primitive.targets.iter().flatten();
+            let deltas = targets.flat_map(|target| [&target.positions, &target.normals, &target.tangents]).flatten();
+            let accessors = primitive.attributes.values().chain(&primitive.indices).chain(deltas);
+            within("accessor", root.accessors.len(), accessors, place)?;
+            within("material", root.materials.len(), &primitive.material, place)?;
+        }
+    }
+    for (index, material) in root.materials.iter().enumerate() {
+        let place = || label("material", index, material.name.as_deref());
+        within(
+            "texture",
+            root.textures.len(),
+            materials::textures(material).iter().map(|(_, texture)| texture),
+            place,
+        )?;
+    }
+    check_pictures(root)?;
+    for (index, skin) in root.skins.iter().enumerate() {
+        let place = || label("skin", index, skin.name.as_deref());
+        within("node", root.nodes.len(), skin.joints.iter().chain(&skin.skeleton), place)?;
+        within("accessor", root.accessors.len(), &skin.inverse_bind_matrices, place)?;
+    }
+    Ok(())
+}
+
+fn check_pictures(root: &Root) -> Result<(), Fault> {
+    for (index, texture) in root.textures.iter().enumerate() {
+        let place = || label("texture", index, texture.name.as_deref());
+        within("sampler", root.samplers.len(), &texture.sampler, place)?;
+        // Where an extension names another kind of image in its stead the source is missing, which reads as this.
+        let source = Some(texture.source).filter(|source| source.value() != u32::MAX as usize);
+        within("image", root.images.len(), &source, place)?;
+    }
+    for (index, image) in root.images.iter().enumerate() {
+        let place = || label("image", index, image.name.as_deref());
+        within("bufferView", root.buffer_views.len(), &image.buffer_view, place)?;
+    }
+    Ok(())
+}
+
+fn within<'a, T: 'a>(
+    kind: &str,
+    count: usize,
+    indices: impl IntoIterator<Item = &'a Index<T>>,
+    place: impl Fn() -> String,
+) -> Result<(), Fault> {
+    match indices.into_iter().find(|index| index.value() >= count) {
+        None => Ok(()),
+        Some(index) => Err(Fault::at(place(), format_args!("there is no {kind} {index}; export the file again"))),
+    }
+}
