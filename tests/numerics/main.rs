@@ -6,6 +6,7 @@
 mod fit;
 mod hostile_table;
 mod medium;
+mod shipped_table;
 mod slab;
 mod statistics;
 mod table;
