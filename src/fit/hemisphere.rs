@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 /// Nodes over the half of the upper hemisphere on one side of the plane of incidence, in which lobes are mirrored.
 ///
 /// In each bin of the histogram, [`Hemisphere::PER_BIN`] nodes by Gauss in sqrt(mu) and the bin's centre in azimuth (for
-/// what is periodic and smooth, centres converge like Gauss). They hold a transformed cosine's integral to 1e-4
-/// for a >= 0.003, and single scattering's to 7e-4 at (1/31, mu = 0.001) and to 1e-4 elsewhere.
+/// what is periodic and smooth, centres converge like Gauss). They hold a transformed cosine's integral to 3e-4
+/// for a >= 0.004, and single scattering's to 7e-4 at (1/31, mu = 0.001) and to 1e-4 elsewhere.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
     /// Directions; those of a bin in a row, bins in the order of [`Histogram::bins`].
