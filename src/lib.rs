@@ -12,7 +12,7 @@
 //! | [`table`] | the table of lobes: bilinear lookup, .csv and .dds in and out | |
 //! | [`physics`] | the slab of fibres, stated and solved | |
 //! | [`fit`] | lobe to LTC, the grid, the error report | |
-//! | [`reference`] | the picture in `f64`: the exact form factor of a polygon | |
+//! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |

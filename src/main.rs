@@ -11,6 +11,8 @@ mod fit;
 #[path = "main/render_args.rs"]
 mod render_args;
 
+use std::fmt::Display;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use args::{Arguments, Command};
@@ -69,6 +71,11 @@ fn quiet_device_selection() {
         // SAFETY: the first thing that the process does, so no other thread reads the environment.
         unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
     }
+}
+
+/// A line on stdout. Whoever closed the other end has read enough.
+fn say(line: impl Display) {
+    let _ = writeln!(io::stdout(), "{line}");
 }
 
 /// Help and version as clap prints them; anything else in one line.

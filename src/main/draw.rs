@@ -10,8 +10,8 @@ use velour::renderer::{Offscreen, RenderError};
 use velour::scene::{Camera, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
-use crate::Failure;
 use crate::render_args::{Render, Switch};
+use crate::{Failure, say};
 
 #[cfg(feature = "viewer")]
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
@@ -116,7 +116,7 @@ fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
     let [width, height] = arguments.size;
     let output = arguments.output.display();
     if !arguments.json {
-        println!("{output}: {width}x{height} on {} in {:.2} s", adapter.name, timing.total());
+        say(format!("{output}: {width}x{height} on {} in {:.2} s", adapter.name, timing.total()));
         return;
     }
     let triangles = |mesh: usize| scene.meshes[mesh].indices.len() / 3;
@@ -134,7 +134,7 @@ fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
         "seconds": seconds,
         "total_seconds": timing.total(),
     });
-    println!("{figures}");
+    say(figures);
 }
 
 #[cfg(feature = "viewer")]
@@ -145,7 +145,8 @@ pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
     };
     scene.notices.iter().for_each(|notice| eprintln!("velour: {notice}"));
     let name = arguments.scene.as_ref().map_or(DEFAULT_SCENE.0.into(), |path| path.display().to_string());
-    let event_loop = velour::viewer::event_loop().map_err(Failure::device)?;
+    let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
+    let event_loop = velour::viewer::event_loop().map_err(no_display)?;
     velour::viewer::run(event_loop, &name, scene, LtcTable::embedded()).map_err(Failure::device)
 }
 
@@ -169,7 +170,7 @@ pub fn view_or_render_default() -> Result<(), Failure> {
             let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
             let bytes = picture.map_err(Failure::input)?.to_png().map_err(Failure::input)?;
             write_atomically(output, &bytes).map_err(Failure::input)?;
-            println!("{no_display}: rendered the default scene to {}", output.display());
+            say(format!("{no_display}: the default scene is rendered to {}", output.display()));
             Ok(())
         }
     }
@@ -181,22 +182,22 @@ fn default_scene() -> Result<Scene, Failure> {
 }
 
 pub fn info() -> Result<(), Failure> {
-    println!("velour {}", env!("CARGO_PKG_VERSION"));
+    say(format!("velour {}", env!("CARGO_PKG_VERSION")));
     let adapters =
         pollster::block_on(device::instance(wgpu::Backends::all()).enumerate_adapters(wgpu::Backends::all()));
     if adapters.is_empty() {
-        println!("adapters: none");
+        say("adapters: none");
     }
     for adapter in adapters {
         let about = adapter.get_info();
         let limits = adapter.limits();
-        println!("adapter: {} ({:?}, {:?}, {})", about.name, about.backend, about.device_type, about.driver_info);
-        println!("  largest picture: {0}x{0}", limits.max_texture_dimension_2d);
-        println!("  largest buffer: {} MiB", limits.max_buffer_size >> 20);
-        println!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20);
+        say(format!("adapter: {} ({:?}, {:?}, {})", about.name, about.backend, about.device_type, about.driver_info));
+        say(format!("  largest picture: {0}x{0}", limits.max_texture_dimension_2d));
+        say(format!("  largest buffer: {} MiB", limits.max_buffer_size >> 20));
+        say(format!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20));
     }
     let table = LtcTable::embedded();
     let [alphas, mus] = table.size();
-    println!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum());
+    say(format!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum()));
     Ok(())
 }

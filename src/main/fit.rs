@@ -6,8 +6,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use velour::fit::{self, Options};
 use velour::picture::{check_writable, write_atomically};
 
-use crate::Failure;
 use crate::args::Fit;
+use crate::{Failure, say};
 
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     let folder = &arguments.output;
@@ -30,7 +30,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     bar.finish_and_clear();
     write_atomically(&csv, table.to_csv(&report.header()).as_bytes()).map_err(Failure::input)?;
     write_atomically(&dds, &table.to_dds()).map_err(Failure::input)?;
-    println!("{report}");
-    println!("wrote {} and {}", csv.display(), dds.display());
+    say(report);
+    say(format!("wrote {} and {}", csv.display(), dds.display()));
     Ok(())
 }

@@ -19,7 +19,7 @@ use crate::table::LtcTable;
 /// The window could not be opened, or not kept.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
-    #[error("no display ({0}): use `velour render`")]
+    #[error("no display ({0})")]
     NoDisplay(String),
     #[error("the window cannot be used ({0}): use `velour render`")]
     Window(String),
