@@ -59,7 +59,7 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("velour: {}", one_line(&failure.message));
+            complain(one_line(&failure.message));
             ExitCode::from(failure.code)
         }
     }
@@ -73,9 +73,19 @@ fn quiet_device_selection() {
     }
 }
 
-/// A line on stdout. Whoever closed the other end has read enough.
+/// A line on stdout. Whoever closed the other end has read enough; other failures are complained of.
 fn say(line: impl Display) {
-    let _ = writeln!(io::stdout(), "{line}");
+    match writeln!(io::stdout(), "{line}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            complain(format!("stdout cannot be written: {error}"))
+        }
+        _ => {}
+    }
+}
+
+/// A line on stderr; where that cannot be written, nobody is left to tell.
+fn complain(line: impl Display) {
+    let _ = writeln!(io::stderr(), "velour: {line}");
 }
 
 /// Help and version as clap prints them; anything else in one line.
@@ -90,7 +100,7 @@ fn usage(error: &clap::Error) -> ExitCode {
     let saying = |line: &&str| !line.is_empty() && !line.starts_with("tip:");
     let message: Vec<&str> = text.lines().map(str::trim).take_while(telling).filter(saying).collect();
     let message = one_line(&message.join(" "));
-    eprintln!("velour: {}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message));
+    complain(format!("{}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message)));
     ExitCode::from(2)
 }
 

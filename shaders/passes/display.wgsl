@@ -1,11 +1,10 @@
-// The second pass: a frame's radiance, multisampled or not, to what is shown (exposure, tone curve, sRGB) or measured
+// The second pass: a frame's radiance, multisampled or not, to what is shown (tone curve, sRGB) or measured
 // (the plain mean of a pixel's samples).
 
 struct DisplayUniforms {
-    // 2^exposure
-    gain: f32,
     // 0: clamped; 1: Khronos PBR Neutral
     tone_curve: u32,
+    padding: u32,
     // The pixel of the output that shows the radiance's first.
     origin: vec2u,
 }
@@ -39,9 +38,8 @@ fn display_neutral(radiance: vec3f) -> vec3f {
     return mix(color * (new_peak / peak), vec3f(new_peak), white);
 }
 
-// What a radiance looks like: display-linear, in [0, 1].
-fn display_tone(radiance: vec3f) -> vec3f {
-    let exposed = radiance * display_uniforms.gain;
+// What an exposed radiance looks like: display-linear, in [0, 1].
+fn display_tone(exposed: vec3f) -> vec3f {
     if display_uniforms.tone_curve == 1u {
         return display_neutral(exposed);
     }

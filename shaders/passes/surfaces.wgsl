@@ -8,6 +8,8 @@ struct SurfacesFrame {
     // Weights, 0 or 1, of sheen, diffuse, emission.
     lobes: vec3f,
     polygon_count: u32,
+    // What radiance is multiplied by before it is stored, so that the range of the targets' floats is the screen's.
+    gain: f32,
 }
 
 struct SurfacesInstance {
@@ -71,11 +73,17 @@ fn surfaces_normalize(v: vec3f) -> vec3f {
     return v * select(0.0, inverseSqrt(length_squared), length_squared > 0.0);
 }
 
+// The error of interpolated positions, as a share of the largest coordinate: a few roundings of f32. Points no further
+// from a light's plane are in it, so that a light does not shine on itself.
+const SURFACES_POSITION_ERROR = 1e-6;
+
 // Form factors of one light for both lobes: x the diffuse one, y the sheen.
 fn surfaces_form_factors(polygon: SurfacesPolygon, p_world: vec3f, local_from_world: mat3x3f, m_inv: mat3x3f) -> vec2f {
     let to_vertex = surfaces_light_vertices[polygon.first_vertex].xyz - p_world;
     let side = ltc_side(polygon.normal, to_vertex, polygon.two_sided != 0u);
-    if side == 0.0 {
+    let size = abs(p_world) + abs(to_vertex);
+    let error = SURFACES_POSITION_ERROR * max(size.x, max(size.y, size.z));
+    if side == 0.0 || abs(dot(polygon.normal, to_vertex)) <= error {
         return vec2f(0.0);
     }
     let identity = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
@@ -109,5 +117,5 @@ fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: b
         let form_factors = surfaces_form_factors(polygon, in.p_world, local_from_world, lobe.m_inv);
         radiance += polygon.radiance * (base_weight * form_factors.x + sheen_weight * form_factors.y);
     }
-    return vec4f(radiance, 1.0);
+    return vec4f(surfaces_frame.gain * radiance, 1.0);
 }

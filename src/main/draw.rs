@@ -11,7 +11,7 @@ use velour::scene::{Camera, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
 use crate::render_args::{Render, Switch};
-use crate::{Failure, say};
+use crate::{Failure, complain, say};
 
 #[cfg(feature = "viewer")]
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
@@ -46,7 +46,7 @@ pub fn render(arguments: &Render) -> Result<(), Failure> {
     let gpu = timing.measure("device", || open(arguments.adapter.as_deref()))?;
     let bytes = draw(&gpu, arguments, format, (&scene, camera, &table), &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
-    scene.notices.iter().for_each(|notice| eprintln!("velour: {notice}"));
+    scene.notices.iter().for_each(complain);
     report(arguments, &scene, &gpu, &timing);
     Ok(())
 }
@@ -65,7 +65,7 @@ fn draw(
         Format::Png => {
             let renderer =
                 timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, &settings));
-            let mut renderer = renderer.map_err(Failure::input)?;
+            let mut renderer = renderer.map_err(render_failure)?;
             let tone = arguments.tonemap.into();
             let picture = timing
                 .measure("frame", || gpu.block_on(renderer.display(gpu, camera, arguments.size, &settings, tone)));
@@ -73,13 +73,21 @@ fn draw(
         }
         Format::Exr => {
             let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, &settings));
-            let mut renderer = renderer.map_err(Failure::input)?;
+            let mut renderer = renderer.map_err(render_failure)?;
             let picture =
                 timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, arguments.size, &settings)));
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };
-    encoded.map_err(|error: RenderError| Failure::input(error))?.map_err(Failure::input)
+    encoded.map_err(render_failure)?.map_err(Failure::input)
+}
+
+/// A lost device is no bad input.
+fn render_failure(error: RenderError) -> Failure {
+    match error {
+        RenderError::Readback(_) => Failure::device(error),
+        _ => Failure::input(error),
+    }
 }
 
 fn settings(arguments: &Render) -> Settings {
@@ -143,10 +151,10 @@ pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
         Some(path) => gltf::load(path).map_err(Failure::input)?,
         None => default_scene()?,
     };
-    scene.notices.iter().for_each(|notice| eprintln!("velour: {notice}"));
     let name = arguments.scene.as_ref().map_or(DEFAULT_SCENE.0.into(), |path| path.display().to_string());
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
     let event_loop = velour::viewer::event_loop().map_err(no_display)?;
+    scene.notices.iter().for_each(complain);
     velour::viewer::run(event_loop, &name, scene, LtcTable::embedded()).map_err(Failure::device)
 }
 
@@ -165,10 +173,10 @@ pub fn view_or_render_default() -> Result<(), Failure> {
             let settings = Settings::default();
             let table = LtcTable::embedded();
             let renderer = Offscreen::for_display(&gpu, 4, &table, &scene, &settings);
-            let mut renderer = renderer.map_err(Failure::input)?;
+            let mut renderer = renderer.map_err(render_failure)?;
             let camera = camera(&scene, None)?;
             let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
-            let bytes = picture.map_err(Failure::input)?.to_png().map_err(Failure::input)?;
+            let bytes = picture.map_err(render_failure)?.to_png().map_err(Failure::input)?;
             write_atomically(output, &bytes).map_err(Failure::input)?;
             say(format!("{no_display}: the default scene is rendered to {}", output.display()));
             Ok(())

@@ -23,9 +23,19 @@ pub enum Showing {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
-    gain: f32,
     tone_curve: u32,
+    padding: u32,
     origin: [u32; 2],
+}
+
+impl Showing {
+    /// What radiance is multiplied by.
+    pub(super) fn gain(self) -> f32 {
+        match self {
+            Self::Shown { exposure, .. } => exposure.exp2(),
+            Self::Measured => 1.0,
+        }
+    }
 }
 
 /// Draws a frame's radiance into an output of one format.
@@ -71,11 +81,11 @@ impl DisplayPass {
         (output, place): (&TextureView, Rect),
         showing: Showing,
     ) {
-        let (gain, tone_curve) = match showing {
-            Showing::Shown { exposure, tone } => (exposure.exp2(), u32::from(tone == ToneCurve::Neutral)),
-            Showing::Measured => (1.0, 0),
+        let tone_curve = match showing {
+            Showing::Shown { tone, .. } => u32::from(tone == ToneCurve::Neutral),
+            Showing::Measured => 0,
         };
-        let uniforms = Uniforms { gain, tone_curve, origin: [place.x, place.y] };
+        let uniforms = Uniforms { tone_curve, padding: 0, origin: [place.x, place.y] };
         queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
@@ -167,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_uniforms_stand_as_the_shader_reads_them() {
-        let members = members!(Uniforms { gain, tone_curve, origin });
+        let members = members!(Uniforms { tone_curve, padding, origin });
         assert_eq!(differences(DISPLAY_WGSL, "DisplayUniforms", size_of::<Uniforms>(), members), [""; 0]);
     }
 }

@@ -1,7 +1,7 @@
 //! wgpu: device, targets, passes. The same passes draw offscreen and on a window's surface.
 //!
 //! A frame goes through two passes. The first draws every surface's radiance, lit by the polygon lights in closed form,
-//! into floating-point targets; the second shows it (exposure, tone curve, sRGB) or measures it (plain linear radiance).
+//! and exposed, into floating-point targets; the second shows it (tone curve, sRGB) or measures it (plain linear radiance).
 
 pub mod device;
 mod display;
@@ -37,6 +37,8 @@ pub enum RenderError {
     TooLarge { what: String, bytes: u64, limit: u64 },
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
     Size { size: [u32; 2], limit: u32 },
+    #[error("this adapter cannot draw 32-bit floats with {0} samples a pixel: use --msaa 1 or another --adapter")]
+    Multisampling(u32),
     #[error("the device did not hand the picture over ({0}): try a smaller --size or another --adapter")]
     Readback(String),
 }
@@ -80,23 +82,23 @@ impl Renderer {
         self.surfaces.prepare(&gpu.device, &self.resident);
     }
 
-    /// The first pass: draws the view's radiance into targets of this size, which stay for `show`.
+    /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which stay for `show`.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         size: [u32; 2],
-        (view, settings): (&View, &Settings),
+        (view, settings, showing): (&View, &Settings, Showing),
     ) {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
             _ => Targets::new(&gpu.device, size, self.format.radiance),
         };
-        self.surfaces.encode(&gpu.queue, encoder, &targets, &self.resident, (view, settings));
+        self.surfaces.encode(&gpu.queue, encoder, &targets, &self.resident, (view, settings, showing.gain()));
         self.targets = Some(targets);
     }
 
-    /// The second pass: shows what was drawn last, from the output's pixel `origin` on; the output's other pixels become black.
+    /// The second pass: shows what was drawn last, for the same exposure, from the output's pixel `origin` on; the output's other pixels become black.
     pub fn show(
         &self,
         gpu: &Gpu,

@@ -39,7 +39,7 @@ impl Offscreen {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let radiance = RadianceFormat::linear(&gpu.adapter, samples);
+        let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or(RenderError::Multisampling(samples))?;
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
@@ -133,7 +133,7 @@ impl Offscreen {
         });
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
         let output_view = output.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.draw(gpu, &mut encoder, [tile.width, tile.height], (view, settings));
+        self.renderer.draw(gpu, &mut encoder, [tile.width, tile.height], (view, settings, showing));
         self.renderer.show(gpu, &mut encoder, (&output_view, [0, 0]), showing);
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
         encoder.copy_texture_to_buffer(

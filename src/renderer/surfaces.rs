@@ -28,6 +28,8 @@ struct Frame {
     eye: Vec4,
     lobes: Vec3,
     polygon_count: u32,
+    gain: f32,
+    padding: [u32; 3],
 }
 
 /// Draws a scene's surfaces.
@@ -80,7 +82,7 @@ impl SurfacesPass {
         encoder: &mut CommandEncoder,
         targets: &Targets,
         resident: &Resident,
-        (view, settings): (&View, &Settings),
+        (view, settings, gain): (&View, &Settings, f32),
     ) {
         let weight = |on: bool| f32::from(u8::from(on));
         let lobes = settings.lobes;
@@ -89,6 +91,8 @@ impl SurfacesPass {
             eye: view.eye,
             lobes: Vec3::new(weight(lobes.sheen), weight(lobes.diffuse), weight(lobes.emission)),
             polygon_count: resident.polygon_count,
+            gain,
+            padding: [0; 3],
         };
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -237,7 +241,7 @@ mod tests {
 
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
-        let members = members!(Frame { clip_from_world, eye, lobes, polygon_count });
+        let members = members!(Frame { clip_from_world, eye, lobes, polygon_count, gain });
         assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
     }
 }

@@ -20,11 +20,11 @@ impl RadianceFormat {
         Self { texture: TextureFormat::Rgba16Float, samples }
     }
 
-    /// For linear pictures: 32-bit floats, or 16-bit ones where the adapter cannot multisample those.
-    pub fn linear(adapter: &wgpu::Adapter, samples: u32) -> Self {
+    /// For linear pictures: 32-bit floats; none where the adapter cannot multisample those.
+    pub fn linear(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
         let full = Self { texture: TextureFormat::Rgba32Float, samples };
         let flags = adapter.get_texture_format_features(full.texture).flags;
-        if flags.sample_count_supported(samples) { full } else { Self::display(samples) }
+        flags.sample_count_supported(samples).then_some(full)
     }
 }
 

@@ -13,11 +13,11 @@ pub const CORNERS_MAX: usize = 8192;
 /// The most triangles of all emitters together: what is searched for islands.
 const TRIANGLES_MAX: usize = 1 << 23;
 
-/// Adds a light for every instance that emits and has no light yet. What is past a limit glows and lights nothing.
-pub(super) fn add_lights(scene: &mut Scene, notices: &mut Notices) {
+/// Adds a light for every instance from `first` on that emits. What is past a limit glows and lights nothing.
+pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices) {
     let (mut triangles, mut corners) = (0, 0);
     let mut topologies: Vec<Option<Topology>> = scene.meshes.iter().map(|_| None).collect();
-    for index in scene.lights.iter().map(|light| light.instance + 1).max().unwrap_or(0)..scene.instances.len() {
+    for index in first..scene.instances.len() {
         let instance = &scene.instances[index];
         let mesh = &scene.meshes[instance.mesh];
         let material = &scene.materials[mesh.material];

@@ -43,3 +43,34 @@ impl Instance {
         DMat3::from_mat4(self.world_from_mesh.as_dmat4()).determinant() < 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn instance(linear: DMat3) -> Instance {
+        Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::from_mat3(linear.as_mat3()) }
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_and_outside_under_any_transform() {
+        let (tangent, bitangent, normal) = (DVec3::X, DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.0, -0.8, 0.6));
+        for scale in [DVec3::new(1.0, 2.0, 3.0), DVec3::new(-1.0, 2.0, 0.5), DVec3::new(1e-9, 2e-9, 1e-9)] {
+            let rotation = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, -1.1, 2.0);
+            let linear = rotation * DMat3::from_diagonal(scale);
+            let transformed = instance(linear).world_from_normal().as_dmat3() * normal;
+            for edge in [linear * tangent, linear * bitangent] {
+                assert!(transformed.normalize().dot(edge.normalize()).abs() < 1e-6, "{scale}");
+            }
+            assert!(transformed.dot(linear * normal) > 0.0, "{scale}");
+        }
+    }
+
+    #[test]
+    fn a_flattening_transform_gives_finite_normals() {
+        for scale in [DVec3::new(1.0, 1.0, 0.0), DVec3::ZERO, DVec3::new(0.0, 1.0, 0.0)] {
+            assert!(instance(DMat3::from_diagonal(scale)).world_from_normal().is_finite());
+        }
+    }
+}

@@ -47,10 +47,10 @@ impl Panel {
     }
 }
 
-/// Adds the rig around what the first camera shows, where nothing in the scene glows.
+/// Adds the rig around what the first camera shows, where nothing lights the scene.
 pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
-    let glows = |instance: &Instance| scene.materials[scene.meshes[instance.mesh].material].emission != Vec3::ZERO;
-    let (false, Some(camera)) = (scene.instances.iter().any(glows), scene.cameras.first()) else { return };
+    let (true, Some(camera)) = (scene.lights.is_empty(), scene.cameras.first()) else { return };
+    let first = scene.instances.len();
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
     // Further away and larger by as much it lights a subject the same, and leaves the frame at last.
@@ -62,7 +62,7 @@ pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
     for (panel, world_from_mesh) in PANELS.iter().zip(placed) {
         add_panel(scene, panel, world_from_mesh);
     }
-    lights::add_lights(scene, notices);
+    lights::add_lights(scene, first, notices);
     notices.add("no light in the file", || "key, fill and rim lights are added".to_owned());
 }
 

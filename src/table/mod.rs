@@ -32,6 +32,8 @@ pub enum TableError {
     In { path: PathBuf, problem: Box<TableError> },
     #[error("cannot be read ({0}); give the path of a table's .csv or .dds")]
     Unreadable(#[from] std::io::Error),
+    #[error("is no ordinary file; give the path of a table's .csv or .dds")]
+    NoFile,
     #[error("is neither .csv nor .dds; name the table by its format")]
     UnknownExtension,
     #[error("is longer than {MAX_FILE_BYTES} bytes; a table has at most {MAX_SIDE} nodes a side")]
@@ -146,6 +148,9 @@ fn load(path: &Path) -> Result<LtcTable, TableError> {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase();
     if extension != "csv" && extension != "dds" {
         return Err(TableError::UnknownExtension);
+    }
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(TableError::NoFile);
     }
     let mut bytes = Vec::new();
     File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;

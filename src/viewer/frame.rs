@@ -48,7 +48,8 @@ impl Frame {
             .ok_or_else(|| ViewerError::Window("the adapter cannot present to it".to_owned()))?;
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         // The shaders encode sRGB themselves, as egui expects it.
-        let plain = formats.iter().copied().find(|format| !format.is_srgb());
+        let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+        let plain = plain.into_iter().find(|format| formats.contains(format));
         let configuration =
             wgpu::SurfaceConfiguration { format: plain.unwrap_or(configuration.format), ..configuration };
         surface.configure(&gpu.device, &configuration);
@@ -89,7 +90,8 @@ impl Frame {
                 self.surface.configure(&self.gpu.device, &self.configuration);
                 return Ok(Presented::Again);
             }
-            CurrentSurfaceTexture::Timeout | CurrentSurfaceTexture::Occluded => return Ok(Presented::Hidden),
+            CurrentSurfaceTexture::Timeout => return Ok(Presented::Again),
+            CurrentSurfaceTexture::Occluded => return Ok(Presented::Hidden),
             CurrentSurfaceTexture::Validation => {
                 return Err(ViewerError::Window("its surface is not valid".to_owned()));
             }
@@ -120,12 +122,12 @@ impl Frame {
             self.renderer.update(&self.gpu, &state.scene, &state.settings);
         }
         let size = [place.width, place.height];
+        let showing = Showing::Shown { exposure: state.settings.exposure, tone: state.tone };
         if change >= Change::Drawn || place != self.place {
             let view = View::new(&state.orbit.camera(), size, Rect::full(size));
-            self.renderer.draw(&self.gpu, encoder, size, (&view, &state.settings));
+            self.renderer.draw(&self.gpu, encoder, size, (&view, &state.settings, showing));
             self.place = place;
         }
-        let showing = Showing::Shown { exposure: state.settings.exposure, tone: state.tone };
         self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
     }
 

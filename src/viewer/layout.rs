@@ -45,7 +45,7 @@ fn navigate(ui: &mut Ui, picture: Rect, state: &mut State) -> Change {
     }
     if response.hovered() {
         // A notch of a wheel is about 50 points.
-        state.orbit.zoom((0.004 * scroll.y).exp() * pinch);
+        state.orbit.zoom((0.004 * scroll.y).clamp(-5.0, 5.0).exp() * pinch.clamp(0.1, 10.0));
     }
     if state.orbit == before { Change::None } else { Change::Drawn }
 }

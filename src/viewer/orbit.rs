@@ -71,11 +71,12 @@ impl Orbit {
     /// Goes nearer by this factor (> 1) or farther (< 1).
     pub fn zoom(&mut self, factor: f32) {
         assert!(factor > 0.0, "a zoom factor is positive, not {factor}");
-        if let Projection::Orthographic { ymag, .. } = &mut self.projection {
-            *ymag = (*ymag / factor).clamp(1e-6, 1e6);
-        } else {
-            self.distance = (self.distance / factor).clamp(1e-4, 1e6);
-        }
+        let size = match &mut self.projection {
+            Projection::Orthographic { ymag, .. } => ymag,
+            Projection::Perspective { .. } => &mut self.distance,
+        };
+        // As far as floats serve scenes of any size.
+        *size = (*size / factor).clamp(1e-9, 1e12);
     }
 
     /// Metres that the view shows vertically at the target.

@@ -62,7 +62,7 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
             // Its box, and room at the panel's edge.
             let value_width = 56.0;
             ui.spacing_mut().slider_width = ui.available_width() - value_width;
-            ui.add(egui::Slider::new(&mut sheen.roughness, 0.0..=1.0).fixed_decimals(2));
+            slider(ui, egui::Slider::new(&mut sheen.roughness, 0.0..=1.0).fixed_decimals(2));
         });
     });
     ui.horizontal(|ui| {
@@ -80,10 +80,10 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
 fn picture(ui: &mut Ui, state: &mut State) -> Change {
     ui.separator();
     ui.strong("Picture");
-    let before = (state.settings.exposure, state.tone);
+    let (exposure_before, tone_before) = (state.settings.exposure, state.tone);
     ui.horizontal(|ui| {
         ui.label("exposure");
-        ui.add(egui::Slider::new(&mut state.settings.exposure, -8.0..=8.0).suffix(" EV").fixed_decimals(1));
+        slider(ui, egui::Slider::new(&mut state.settings.exposure, -8.0..=8.0).suffix(" EV").fixed_decimals(1));
     });
     ui.horizontal(|ui| {
         ui.label("tone curve");
@@ -101,9 +101,9 @@ fn picture(ui: &mut Ui, state: &mut State) -> Change {
     ui.checkbox(&mut state.settings.lights_visible, "lights visible");
     if visible_before != state.settings.lights_visible {
         Change::Scene
-    } else if lobes_before != state.settings.lobes {
+    } else if lobes_before != state.settings.lobes || exposure_before != state.settings.exposure {
         Change::Drawn
-    } else if before != (state.settings.exposure, state.tone) {
+    } else if tone_before != state.tone {
         Change::Shown
     } else {
         Change::None
@@ -140,7 +140,7 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
     ui.horizontal(|ui| {
         ui.label("position");
         for coordinate in [&mut position.x, &mut position.y, &mut position.z] {
-            ui.add(egui::DragValue::new(coordinate).speed(0.01).fixed_decimals(2));
+            ui.add(egui::DragValue::new(coordinate).range(-1e10..=1e10).speed(0.01).fixed_decimals(2));
         }
     });
     let radiance = strength * color / color.max_element().max(1e-6);
@@ -155,6 +155,11 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
         change = Change::Scene;
     }
     change
+}
+
+/// A slider that changes nothing until it is touched: what a file says is not rounded.
+fn slider(ui: &mut Ui, slider: egui::Slider) {
+    ui.add(slider.clamping(egui::SliderClamping::Edits));
 }
 
 /// A button that opens a colour picker on a linear Rec. 709 colour in [0, 1].

@@ -11,9 +11,9 @@ use crate::scene::{Scene, Settings, Sheen};
 pub enum Change {
     #[default]
     None,
-    /// Exposure or tone curve: what was drawn is shown anew.
+    /// The tone curve: what was drawn is shown anew.
     Shown,
-    /// The view, or which lobes are summed: the scene is drawn anew.
+    /// The view, the exposure, or which lobes are summed: the scene is drawn anew.
     Drawn,
     /// Materials or lights: they are taken over by the device first.
     Scene,

@@ -89,6 +89,11 @@ impl App {
         let start = Instant::now();
         self.pass();
         let Some(open) = &mut self.open else { return Ok(()) };
+        let shown = open.window.inner_size();
+        if shown.width == 0 || shown.height == 0 {
+            // Minimised: what has changed is drawn when the window comes back.
+            return Ok(());
+        }
         let Pending { output, change, screenshot, picture } = std::mem::take(&mut open.pending);
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         let place = picture.unwrap_or(egui::Rect::ZERO);

@@ -155,7 +155,7 @@ fn bad_files_are_named() {
     assert!(error(&path("table.txt")).contains("neither .csv nor .dds"));
     assert!(error(&path("table")).contains("neither .csv nor .dds"));
     std::fs::create_dir(path("folder.csv")).expect("a folder in the test's folder");
-    assert!(error(&path("folder.csv")).contains("cannot be read"));
+    assert!(error(&path("folder.csv")).contains("no ordinary file"));
     std::fs::write(path("bytes.csv"), b"0,0,\xff\xfe").expect("writing in the test's folder");
     assert!(error(&path("bytes.csv")).contains("byte 4 is not UTF-8"));
     std::fs::write(path("text.dds"), ROWS).expect("writing in the test's folder");
@@ -164,4 +164,11 @@ fn bad_files_are_named() {
     let huge = std::fs::File::create(path("huge.dds")).expect("a file in the test's folder");
     huge.set_len(MAX_FILE_BYTES + 1).expect("a sparse file");
     assert!(error(&path("huge.dds")).contains("is longer than"));
+    // A pipe that nobody writes to would be waited for.
+    #[cfg(unix)]
+    {
+        let socket = std::os::unix::net::UnixListener::bind(path("socket.csv")).expect("a socket in the test's folder");
+        assert!(error(&path("socket.csv")).contains("no ordinary file"));
+        drop(socket);
+    }
 }

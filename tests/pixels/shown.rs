@@ -45,6 +45,37 @@ fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
 }
 
 #[test]
+fn exposure_reaches_radiance_of_any_unit() {
+    // Halves hold neither: what is stored has been exposed.
+    for (radiance, exposure) in [(5e5, -20.0), (1e-8, 26.0)] {
+        let mut stage = stage();
+        stage.things[1].material = glow([radiance; 3]);
+        let scene = stage.scene();
+        let settings = Settings { exposure, ..Settings::default() };
+        let expected = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+        let expected = expected.display(exposure, ToneCurve::None);
+        let picture = shown(&scene, 1, &settings, ToneCurve::None, SIZE);
+        assert!(greatest(&picture, &expected) <= 1, "{radiance} {exposure}");
+        assert!(expected.pixels.as_flattened().iter().any(|channel| (100..250).contains(channel)));
+    }
+}
+
+#[test]
+fn a_light_does_not_shine_on_itself() {
+    // Far from the origin a surface's points lie off its own plane by the rounding of large coordinates.
+    for center in [[0.0; 3], [3.0, 2.0, 1.0], [30.0, 20.0, 10.0]] {
+        let [x, y, z] = center;
+        let mut lamp = Thing::rectangle([0.3, 0.3], glow([0.5; 3])).placed(facing(center, [x + 0.3, y + 0.5, z + 1.0]));
+        (lamp.material.double_sided, lamp.material.base_color) = (true, glam::Vec3::ONE);
+        let scene = Stage::new(vec![lamp], looking([x + 0.6, y + 0.4, z + 1.0], center)).scene();
+        let picture = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+        let lit = picture.pixels.iter().filter(|[red, ..]| *red > 0.0).count();
+        assert!(lit > 1000, "{center:?}: {lit} pixels");
+        assert!(picture.pixels.iter().all(|[red, ..]| *red == 0.0 || *red == 0.5), "{center:?}");
+    }
+}
+
+#[test]
 fn four_samples_smooth_the_edges_alone() {
     let (stage, settings, table) = (stage(), Settings::default(), LtcTable::embedded());
     let scene = stage.scene();

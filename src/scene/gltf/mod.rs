@@ -61,7 +61,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     if scene.instances.is_empty() {
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
-    lights::add_lights(&mut scene, &mut notices);
+    lights::add_lights(&mut scene, 0, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
     rig::add_rig(&mut scene, &mut notices);
     scene.notices = notices.into_lines().collect();

@@ -227,7 +227,7 @@ fn a_million_triangles_take_seconds() {
     let second = glowing.instances[0].clone();
     glowing.instances.push(second);
     let mut notices = Notices::default();
-    lights::add_lights(&mut glowing, &mut notices);
+    lights::add_lights(&mut glowing, 0, &mut notices);
     assert!(glowing.lights.is_empty());
     let lines: Vec<String> = notices.into_lines().collect();
     assert_eq!(lines.len(), 1);

@@ -6,7 +6,7 @@ use glam::{Mat4, Quat, Vec3};
 
 use super::shapes::{cube, grid, scene, sphere};
 use crate::scene::notices::Notices;
-use crate::scene::{Camera, Light, Projection, Scene, framing, rig};
+use crate::scene::{Camera, Light, Projection, Scene, framing, lights, rig};
 
 /// A mesh in all kinds of sizes, with a camera and lights.
 fn sets() -> Vec<Scene> {
@@ -73,11 +73,13 @@ fn what_glows_is_no_subject() {
     two.instances[1].world_from_mesh = Mat4::from_translation(Vec3::new(0.0, 50.0, 0.0));
     assert_eq!((two.subject().min, two.subject().max), (Vec3::NEG_ONE, Vec3::ONE));
     assert_eq!(two.bounds().max, Vec3::new(1.0, 51.0, 1.0));
-    // Where all glows all is the subject, and no rig is added.
+    // Where all glows all is the subject. Without a light, as past the limits, it gets the rig; with its own it does not.
     two.materials[0].emission = Vec3::ONE;
     assert_eq!(two.subject(), two.bounds());
+    assert_eq!(added(two.clone()).lights.len(), 3);
+    lights::add_lights(&mut two, 0, &mut Notices::default());
     let two = added(two);
-    assert!(two.lights.is_empty());
+    assert_eq!(two.lights.len(), 2);
     assert_eq!(two.notices, ["no camera in the file: the whole scene is framed"]);
     let Projection::Perspective { far, .. } = two.cameras[0].projection else { panic!("{:?}", two.cameras[0]) };
     assert!(two.bounds().corners().into_iter().all(|corner| seen(&two.cameras[0], 1.0, corner).z < far));
