@@ -1,7 +1,7 @@
 //! glTF 2.0 in (.gltf and .glb).
 //!
-//! Files come from anywhere, so nothing in them is believed: [`json`] proves the types of values, [`accessor`] the
-//! ranges, [`nodes`] that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
+//! Files come from anywhere, so nothing in them is believed: `json` proves the types of values, `accessor` the
+//! ranges, `nodes` that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
 //! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
 
 mod accessor;
