@@ -30,8 +30,8 @@ impl Failure {
         Self { code: 2, message: message.to_string() }
     }
 
-    #[cfg(feature = "gpu")]
     /// No graphics device, or no display for a window.
+    #[cfg(feature = "gpu")]
     fn device(message: impl ToString) -> Self {
         Self { code: 3, message: message.to_string() }
     }
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            complain(one_line(&failure.message));
+            complain(failure.message);
             ExitCode::from(failure.code)
         }
     }
@@ -85,7 +85,7 @@ fn say(line: impl Display) {
 
 /// A line on stderr; where that cannot be written, nobody is left to tell.
 fn complain(line: impl Display) {
-    let _ = writeln!(io::stderr(), "velour: {line}");
+    let _ = writeln!(io::stderr(), "velour: {}", one_line(&line.to_string()));
 }
 
 /// Help and version as clap prints them; anything else in one line.
@@ -99,12 +99,12 @@ fn usage(error: &clap::Error) -> ExitCode {
     let telling = |line: &&str| !["Usage:", "For more information"].iter().any(|start| line.starts_with(start));
     let saying = |line: &&str| !line.is_empty() && !line.starts_with("tip:");
     let message: Vec<&str> = text.lines().map(str::trim).take_while(telling).filter(saying).collect();
-    let message = one_line(&message.join(" "));
+    let message = message.join(" ");
     complain(format!("{}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message)));
     ExitCode::from(2)
 }
 
-/// Errors are one line each, whatever a path or a name in them holds.
+/// Errors and notices are one line each, whatever a path or a name in them holds.
 fn one_line(message: &str) -> String {
     message.chars().map(|character| if character.is_control() { '?' } else { character }).collect()
 }

@@ -13,8 +13,8 @@ use velour::table::LtcTable;
 use crate::render_args::{Render, Switch};
 use crate::{Failure, complain, say};
 
-#[cfg(feature = "viewer")]
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
+#[cfg(feature = "viewer")]
 const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../assets/drape.glb"));
 
 /// Seconds spent in the parts of a run, in order.
