@@ -11,8 +11,11 @@ use crate::picture::write_atomically;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::LtcTable;
 
-/// Samples a pixel, in the window and in screenshots.
+/// Samples a pixel of screenshots, and of the window where there is hardware to draw it.
 const SAMPLES: u32 = 4;
+
+/// Samples a pixel of the window on a software driver, where four would cost three times as much: a drag is followed first.
+const SAMPLES_IN_SOFTWARE: u32 = 1;
 
 /// What became of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +56,9 @@ impl Frame {
         let configuration =
             wgpu::SurfaceConfiguration { format: plain.unwrap_or(configuration.format), ..configuration };
         surface.configure(&gpu.device, &configuration);
-        let format =
-            Format { radiance: RadianceFormat::display(SAMPLES), output: configuration.format, measured: false };
+        let software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let radiance = RadianceFormat::display(if software { SAMPLES_IN_SOFTWARE } else { SAMPLES });
+        let format = Format { radiance, output: configuration.format, measured: false };
         let renderer = Renderer::new(&gpu, format, table, &state.scene, &state.settings)?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
         Ok(Self { surface, configuration, gpu, renderer, egui, place: Rect::full([0, 0]) })
