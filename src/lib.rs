@@ -18,6 +18,16 @@
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
 //!
+//! # Example
+//!
+//! The sheen's numbers at any roughness and view angle, without a graphics device:
+//!
+//! ```
+//! let table = velour::table::LtcTable::embedded();
+//! let [a, b, r] = table.lookup(0.5, 0.3);
+//! assert!(a > 0.0 && b < 0.0 && r < 1.0);
+//! ```
+//!
 //! # Glossary
 //!
 //! Z: Zeltner, Burley, Chiang 2022; H: Heitz, Dupuy, Hill, Neubelt 2016; S: Heitz, Dupuy, Crassin, Dachsbacher 2015.
