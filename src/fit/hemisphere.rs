@@ -1,6 +1,7 @@
 //! Quadrature over the upper hemisphere, on nodes that the walk's histogram shares.
 
 use crate::math::quadrature::gauss_legendre;
+use crate::math::sine;
 use crate::physics::walk::Histogram;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -45,7 +46,7 @@ impl Default for Hemisphere {
                 for (t, t_weight) in gauss_legendre(Self::PER_BIN, low, high) {
                     // mu = t^2, d mu = 2 t dt.
                     let mu = t * t;
-                    let s = ((1.0 - mu) * (1.0 + mu)).sqrt();
+                    let s = sine(mu);
                     nodes.push(DVec3::new(s * cos_phi, s * sin_phi, mu));
                     weights.push(2.0 * t * t_weight * phi_weight);
                 }

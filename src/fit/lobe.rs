@@ -1,6 +1,7 @@
 //! The lobes that are fitted, and the one interface by which they are had.
 
 use super::hemisphere::Hemisphere;
+use crate::math::sine;
 use crate::physics::slab::Slab;
 use crate::physics::walk::{FirstFlight, Walk};
 use glam::DVec3;
@@ -28,7 +29,7 @@ pub trait LobeSolver: Sync {
 
 /// Single scattering in closed form at the nodes, per steradian.
 pub fn single_scattering(slab: Slab, mu: f64, hemisphere: &Hemisphere) -> Vec<f64> {
-    let wi = DVec3::new(((1.0 - mu) * (1.0 + mu)).sqrt(), 0.0, mu);
+    let wi = DVec3::new(sine(mu), 0.0, mu);
     hemisphere.nodes.iter().map(|&wo| slab.single_scattering(wi, wo)).collect()
 }
 

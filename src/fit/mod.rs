@@ -25,7 +25,7 @@ mod report;
 pub use report::Report;
 
 use crate::physics::slab::Slab;
-use crate::table::LtcTable;
+use crate::table::{LtcTable, node};
 use hemisphere::Hemisphere;
 use least_squares::Free;
 use lobe::{Lobe, LobeSolver, WalkSolver};
@@ -101,7 +101,7 @@ struct Fit {
 fn rows(resolution: usize, solver: &impl LobeSolver, progress: impl Fn(usize, usize) + Sync) -> Vec<Vec<Fit>> {
     let hemisphere = Hemisphere::default();
     let (done, all) = (AtomicUsize::new(0), resolution * (resolution - 1));
-    let node = |k: usize| k as f64 / (resolution - 1) as f64;
+    let node = |k: usize| node(k, resolution);
     let row = |j: usize| {
         let mut row: Vec<Fit> = Vec::new();
         for i in (1..resolution).rev() {

@@ -2,3 +2,8 @@
 
 pub mod quadrature;
 pub mod warp;
+
+/// The sine in \[0, 1\] of an angle in \[0, pi\] from its cosine in \[-1, 1\], without cancellation near either end.
+pub fn sine(cosine: f64) -> f64 {
+    ((1.0 - cosine) * (1.0 + cosine)).sqrt()
+}

@@ -2,6 +2,7 @@
 
 use super::sggx::Sggx;
 use crate::math::quadrature::gauss_legendre;
+use crate::math::sine;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -72,11 +73,6 @@ impl Slab {
 
 /// Gauss nodes a side of [`Slab::single_scattering_albedo`].
 const SINGLE_NODES: usize = 64;
-
-/// sqrt(1 - mu^2) without cancellation.
-fn sine(mu: f64) -> f64 {
-    ((1.0 - mu) * (1.0 + mu)).sqrt()
-}
 
 /// The fibres' cross-section sigma of the paper's roughness alpha.
 pub fn sigma_from_alpha(alpha: f64) -> f64 {

@@ -10,7 +10,7 @@
 //! number of them.
 
 use super::slab::Slab;
-use crate::math::warp;
+use crate::math::{sine, warp};
 use glam::DVec3;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -176,7 +176,7 @@ impl Walk {
     fn path(&self, mut depth: f64, rng: &mut Pcg64, counts: &mut Counts) {
         let medium = self.slab.medium();
         // Light comes from wi: what points back along the first flight.
-        let mut back = DVec3::new(((1.0 - self.mu) * (1.0 + self.mu)).sqrt(), 0.0, self.mu);
+        let mut back = DVec3::new(sine(self.mu), 0.0, self.mu);
         let mut seen = medium.stretched(back).normalize();
         let mut orders = 0_u64;
         loop {

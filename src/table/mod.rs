@@ -165,7 +165,7 @@ fn load(path: &Path) -> Result<LtcTable, TableError> {
 }
 
 /// Where node `k` of `n` sits.
-fn node(k: usize, n: usize) -> f64 {
+pub fn node(k: usize, n: usize) -> f64 {
     k as f64 / (n - 1) as f64
 }
 
