@@ -168,20 +168,25 @@ pub fn view_or_render_default() -> Result<(), Failure> {
         }
         Err(no_display) => {
             let output = Path::new("velour.png");
-            check_writable(output).map_err(Failure::input)?;
-            let gpu = open(None)?;
-            let settings = Settings::default();
-            let table = LtcTable::embedded();
-            let renderer = Offscreen::for_display(&gpu, 4, &table, &scene, &settings);
-            let mut renderer = renderer.map_err(render_failure)?;
-            let camera = camera(&scene, None)?;
-            let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
-            let bytes = picture.map_err(render_failure)?.to_png().map_err(Failure::input)?;
-            write_atomically(output, &bytes).map_err(Failure::input)?;
+            render_default(&scene, output)?;
             say(format!("{no_display}: the default scene is rendered to {}", output.display()));
             Ok(())
         }
     }
+}
+
+/// What `velour render` makes of the scene when no flag is given.
+#[cfg(feature = "viewer")]
+fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
+    check_writable(output).map_err(Failure::input)?;
+    let camera = camera(scene, None)?;
+    let gpu = open(None)?;
+    let settings = Settings::default();
+    let renderer = Offscreen::for_display(&gpu, 4, &LtcTable::embedded(), scene, &settings);
+    let mut renderer = renderer.map_err(render_failure)?;
+    let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
+    let bytes = picture.map_err(render_failure)?.to_png().map_err(Failure::input)?;
+    write_atomically(output, &bytes).map_err(Failure::input)
 }
 
 #[cfg(feature = "viewer")]

@@ -98,7 +98,8 @@ impl Renderer {
         self.targets = Some(targets);
     }
 
-    /// The second pass: shows what was drawn last, for the same exposure, from the output's pixel `origin` on; the output's other pixels become black.
+    /// The second pass: shows what was drawn last, for the same exposure, from the output's pixel `origin` on. Other pixels
+    /// of the output become black.
     pub fn show(
         &self,
         gpu: &Gpu,

@@ -14,7 +14,7 @@ use crate::table::LtcTable;
 /// Samples a pixel of screenshots, and of the window where there is hardware to draw it.
 const SAMPLES: u32 = 4;
 
-/// Samples a pixel of the window on a software driver, where four would cost three times as much: a drag is followed first.
+/// Samples a pixel of the window on a software driver, where four cost twice as much: a drag is followed first.
 const SAMPLES_IN_SOFTWARE: u32 = 1;
 
 /// What became of a frame.
