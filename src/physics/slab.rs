@@ -1,10 +1,11 @@
 //! The layer: 0 <= z <= 1 of fibres along its normal z, with what is known of it in closed form.
 
+use super::modes::Elevation;
 use super::sggx::Sggx;
 use crate::math::quadrature::gauss_legendre;
-use crate::math::sine;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
 
 /// The slab of fibres of one roughness.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,33 +46,55 @@ impl Slab {
         if mu_o == 0.0 {
             return 0.0;
         }
-        let attenuated = -(-self.depth(mu_i) - self.depth(mu_o)).exp_m1();
-        let rate = self.medium.extinction(mu_i) * mu_o + self.medium.extinction(mu_o) * mu_i;
-        self.medium.kernel(wi, wo) * attenuated * mu_o / rate
+        let [one, other] = [mu_i, mu_o].map(Elevation::from_cosine);
+        self.medium.kernel(wi, wo) * self.reflected_once(one, other) * mu_o
+    }
+
+    /// Single scattering's part of the transmitted lobe, per steradian; exact. `wi` has z >= 0, `wo` z <= 0; both point away.
+    ///
+    /// The integral over t of exp(-A_i t) K / mu_i exp(-A_o (1 - t)); 0 where one of the cosines is 0.
+    pub fn single_transmission(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let [one, other] = [wi.z, -wo.z].map(Elevation::from_cosine);
+        if one.mu == 0.0 || other.mu == 0.0 {
+            return 0.0;
+        }
+        self.medium.kernel(wi, wo) * self.transmitted_once(one, other) * other.mu
+    }
+
+    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o). Infinite where
+    /// both cosines are 0.
+    pub(super) fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
+        let attenuated = -(-self.depth(one.mu) - self.depth(other.mu)).exp_m1();
+        attenuated / (self.medium.extinction_at(one) * other.mu + self.medium.extinction_at(other) * one.mu)
+    }
+
+    /// What the kernel is multiplied by to give single scattering's transmitted radiance per unit of flux:
+    /// (exp(-A_o) - exp(-A_i)) / ((A_i - A_o) mu_i mu_o).
+    pub(super) fn transmitted_once(&self, one: Elevation, other: Elevation) -> f64 {
+        let (depth, other_depth) = (self.depth(one.mu), self.depth(other.mu));
+        let difference = (depth - other_depth).abs();
+        let mean = if difference > 0.0 { -(-difference).exp_m1() / difference } else { 1.0 };
+        (-depth.min(other_depth)).exp() * mean / (one.mu * other.mu)
     }
 
     /// Single scattering's part of the albedo R at cosine `mu` in \[0, 1\]: the integral of [`Self::single_scattering`] over the
-    /// upper hemisphere, to a relative 1e-5.
+    /// upper hemisphere, to a relative 1e-7.
     pub fn single_scattering_albedo(&self, mu: f64) -> f64 {
-        let wi = DVec3::new(sine(mu), 0.0, mu);
-        // Both variables are warped to where a narrow feature may lie: mu_o = t^3 to the horizon, phi = pi (1 - u^2) to the
-        // direction straight on, around which the flakes that would be needed are rare.
-        let inner = gauss_legendre(SINGLE_NODES, 0.0, 1.0);
-        let mut sum = 0.0;
-        for &(t, t_weight) in &inner {
-            let mu_o = t * t * t;
-            for &(u, u_weight) in &inner {
-                let (sin_phi, cos_phi) = (PI * (1.0 - u * u)).sin_cos();
-                let wo = DVec3::new(sine(mu_o) * cos_phi, sine(mu_o) * sin_phi, mu_o);
-                let measure = 3.0 * t * t * t_weight * 2.0 * (2.0 * PI * u * u_weight);
-                sum += measure * self.single_scattering(wi, wo);
-            }
-        }
-        sum
+        static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(SINGLE_NODES, 0.0, 1.0));
+        let from = Elevation::from_cosine(mu);
+        // The angle is warped to the horizon, t^3 of the whole: there lies what is narrow.
+        let term = |(t, weight): &(f64, f64)| {
+            let to = Elevation::from_angle(FRAC_PI_2 * t * t * t);
+            let mut kernel = [0.0];
+            self.medium.kernel_modes(from, to.opposite(), &mut kernel);
+            let measure = 2.0 * PI * to.s * to.mu * FRAC_PI_2 * 3.0 * t * t * weight;
+            measure * kernel[0] * self.reflected_once(from, to)
+        };
+        RULE.iter().map(term).sum()
     }
 }
 
-/// Gauss nodes a side of [`Slab::single_scattering_albedo`].
+/// Gauss nodes of [`Slab::single_scattering_albedo`].
 const SINGLE_NODES: usize = 64;
 
 /// The fibres' cross-section sigma of the paper's roughness alpha.
