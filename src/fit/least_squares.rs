@@ -1,7 +1,7 @@
 //! The matrix whose transformed cosine is nearest to a lobe.
 
 use super::hemisphere::Hemisphere;
-use super::ltc::Ltc;
+use crate::table::Ltc;
 
 /// Least `a` that a fit gives.
 pub const LEAST_A: f64 = 1e-3;

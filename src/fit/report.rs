@@ -1,69 +1,72 @@
 //! How good a fitted table is.
 
-use super::{Fit, Options};
+use super::albedo::Truth;
+use super::{Fit, GRAZING_MU, RESOLUTION};
+use crate::table::LtcTable;
 use std::fmt;
 
 /// Albedo below which a lobe is left out of the errors: nobody sees it.
-const DIM: f64 = 1e-3;
+pub const DIM: f64 = 1e-3;
 
-/// Errors of a fitted table over its nodes with R > 1e-3.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    pub options: Options,
-    /// Nodes with R > 1e-3.
-    pub nodes: usize,
-    /// Mean of the relative L2 distance between lobe and transformed cosine.
+/// Statistics of relative errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
     pub mean: f64,
     pub median: f64,
     pub max: f64,
-    /// Mean weighted by R.
+}
+
+impl Errors {
+    /// Of one or more errors.
+    pub fn new(mut errors: Vec<f64>) -> Self {
+        assert!(!errors.is_empty(), "errors of nothing have no mean");
+        errors.sort_by(f64::total_cmp);
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        Self { mean, median: errors[errors.len() / 2], max: errors[errors.len() - 1] }
+    }
+}
+
+/// Errors of a fitted table, where R > 1e-3.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Nodes a side.
+    pub resolution: usize,
+    /// Nodes with R > 1e-3.
+    pub nodes: usize,
+    /// Relative L2 distance between lobe and transformed cosine at these.
+    pub lobe: Errors,
+    /// Its mean weighted by R.
     pub weighted: f64,
-    /// Largest relative standard error of r.
-    pub albedo_error: f64,
-    /// Nodes of all whose a, b are copied from the next larger alpha.
-    pub copied_shapes: usize,
-    /// Nodes of all whose r is single scattering's times the next larger alpha's ratio.
-    pub copied_albedos: usize,
+    /// Relative error of the interpolated r at the points to which it was fitted.
+    pub albedo: Errors,
 }
 
 impl Report {
-    pub(super) fn new(options: Options, fits: &[&Fit]) -> Self {
-        let mut bright: Vec<&Fit> = fits.iter().copied().filter(|fit| fit.albedo > DIM).collect();
-        assert!(!bright.is_empty(), "lobes at alpha = 1 are bright");
-        bright.sort_by(|one, other| one.distance.total_cmp(&other.distance));
-        let nodes = bright.len();
+    pub(super) fn new<'a>(table: &LtcTable, fits: impl Iterator<Item = &'a Fit>, truth: &Truth) -> Self {
+        let bright: Vec<&Fit> = fits.filter(|fit| fit.albedo > DIM).collect();
         let albedo: f64 = bright.iter().map(|fit| fit.albedo).sum();
         let weighted = bright.iter().map(|fit| fit.albedo * fit.distance).sum::<f64>() / albedo;
-        Self {
-            options,
-            nodes,
-            mean: bright.iter().map(|fit| fit.distance).sum::<f64>() / nodes as f64,
-            median: bright[nodes / 2].distance,
-            max: bright[nodes - 1].distance,
-            weighted,
-            albedo_error: bright.iter().map(|fit| fit.albedo_error / fit.albedo).fold(0.0, f64::max),
-            copied_shapes: fits.iter().filter(|fit| fit.shape_copied).count(),
-            copied_albedos: fits.iter().filter(|fit| fit.albedo_copied).count(),
+        let lobe = Errors::new(bright.iter().map(|fit| fit.distance).collect());
+        let mut relative = Vec::new();
+        for (row, &alpha) in truth.values.chunks_exact(truth.mus.len()).zip(&truth.alphas) {
+            let bright = row.iter().zip(&truth.mus).filter(|(value, _)| **value > DIM);
+            relative.extend(bright.map(|(value, &mu)| (table.lookup(alpha, mu)[2] / value - 1.0).abs()));
         }
+        Self { resolution: table.size()[0], nodes: bright.len(), lobe, weighted, albedo: Errors::new(relative) }
     }
 
     /// What stands at the head of the table's .csv, a string a line: what it is, its axes, its errors, how it was made.
     pub fn header(&self) -> Vec<String> {
-        let Options { resolution, .. } = self.options;
-        let option = if resolution == Options::default().resolution {
-            String::new()
-        } else {
-            format!(" --resolution {resolution}")
-        };
+        let option =
+            if self.resolution == RESOLUTION { String::new() } else { format!(" --resolution {}", self.resolution) };
         let about = format!(
             "Sheen of a slab of fibres as linearly transformed cosines (Zeltner, Burley, Chiang 2022), all orders of scattering.
 alpha: roughness, small is fuzz, large is dust. mu: cosine of wi (the view in rendering) to the normal. Node k sits at k/{last}.
 a, b: inverse matrix by rows (a,0,b), (0,a,0), (0,0,1) in the frame z = normal, x = wi projected on the surface; b <= 0.
 r: albedo of the lobe, all colours 1. Reflected radiance = C_sheen r x (integral of the transformed cosine x radiance).
-Lookup: bilinear. mu = 0 is computed at {grazing}. alpha = 0 has no lobe: r = 0, a and b of the next alpha.
-",
-            last = resolution - 1,
-            grazing = super::GRAZING_MU,
+Lookup: bilinear. r is fitted for the interpolated value: near alpha = mu = 0 it is far from the albedo at the node.
+a, b of mu = 0 are those of mu = {GRAZING_MU}. alpha = 0 has no lobe: a and b of the next alpha.",
+            last = self.resolution - 1,
         );
         let made = format!("Made by: velour fit{option}");
         about.lines().map(str::to_owned).chain(self.to_string().lines().map(str::to_owned)).chain([made]).collect()
@@ -72,24 +75,16 @@ Lookup: bilinear. mu = 0 is computed at {grazing}. alpha = 0 has no lobe: r = 0,
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Options { resolution, paths, seed } = self.options;
+        let Self { nodes, lobe, weighted, albedo, .. } = self;
         writeln!(
             f,
-            "Relative L2 error of the lobe, {} nodes with r > {DIM}: mean {:.4}, median {:.4}, max {:.4}, weighted by r {:.4}.",
-            self.nodes, self.mean, self.median, self.max, self.weighted
-        )?;
-        writeln!(
-            f,
-            "Standard error of r: at most {:.2}% there. Random walk of {paths} paths a node and more where it is dim, seed {seed}.",
-            100.0 * self.albedo_error
+            "Relative L2 error of the lobe, {nodes} nodes with R > {DIM}: mean {:.4}, median {:.4}, max {:.4}, weighted by R {weighted:.4}.",
+            lobe.mean, lobe.median, lobe.max
         )?;
         write!(
             f,
-            "Of {} nodes with alpha > 0, {} with r far below {DIM} have a, b of the next larger alpha,\n\
-             and {} have r from single scattering and that alpha's share of the rest.",
-            resolution * (resolution - 1),
-            self.copied_shapes,
-            self.copied_albedos,
+            "Relative error of the interpolated r where R > {DIM}: mean {:.4}, median {:.4}, max {:.4}.",
+            albedo.mean, albedo.median, albedo.max
         )
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use velour::fit::{self, Options};
+use velour::fit;
 use velour::picture::{check_writable, write_atomically};
 
 use crate::args::Fit;
@@ -17,13 +17,12 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     for path in [&csv, &dds] {
         check_writable(path).map_err(Failure::input)?;
     }
-    let options = Options { resolution: arguments.resolution.into(), ..Default::default() };
     // Drawn on a terminal only.
     let bar = ProgressBar::new(0);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} lobes, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} steps, {eta} left") {
         bar.set_style(style);
     }
-    let (table, report) = fit::sheen(options, |done, all| {
+    let (table, report) = fit::sheen(arguments.resolution.into(), |done, all| {
         bar.set_length(all as u64);
         bar.set_position(done as u64);
     });

@@ -1,5 +1,6 @@
-//! Quadrature and sampling warps: `f64`, no domain knowledge.
+//! Quadrature, series and sampling warps: `f64`, no domain knowledge.
 
+pub mod fourier;
 pub mod quadrature;
 pub mod warp;
 

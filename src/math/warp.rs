@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use rand::Rng;
+use std::f64::consts::TAU;
 
 /// Uniform in \[0, 1), a multiple of 2^-53.
 pub fn uniform(rng: &mut impl Rng) -> f64 {
@@ -28,4 +29,12 @@ pub fn unit_sphere(rng: &mut impl Rng) -> DVec3 {
             return DVec3::new(x * scale, y * scale, 1.0 - 2.0 * square);
         }
     }
+}
+
+/// A direction of the upper hemisphere with density z / pi from two uniform numbers in \[0, 1): the unit disc by polar coordinates,
+/// lifted (Malley's method; Pharr, Jakob, Humphreys 2023, A.5.3).
+pub fn cosine_hemisphere([height, turn]: [f64; 2]) -> DVec3 {
+    let across = height.sqrt();
+    let (sin_phi, cos_phi) = (TAU * turn).sin_cos();
+    DVec3::new(across * cos_phi, across * sin_phi, (1.0 - height).sqrt())
 }

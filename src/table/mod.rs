@@ -11,6 +11,9 @@
 
 mod csv;
 mod dds;
+mod ltc;
+
+pub use ltc::Ltc;
 
 use std::fs::File;
 use std::io::Read;

@@ -38,7 +38,7 @@ pub use smooth::SMOOTH_DEGREE;
 
 use super::modes::Elevation;
 use super::slab::Slab;
-use crate::math::sine;
+use crate::math::{fourier::cosine_sum, sine};
 use doubling::Layer;
 use glam::DVec3;
 use mesh::{Mesh, Stencil};
@@ -154,7 +154,7 @@ impl Transport {
         let modes = &mut modes[..self.reflected.len()];
         self.multiple_modes(wi.z, wo.z, modes);
         // Propagation azimuths: light from wi goes along -wi.
-        fourier_sum(modes, -cos_azimuth(wi, wo)) * wo.z
+        cosine_sum(modes, -cos_azimuth(wi, wo)) * wo.z
     }
 
     /// The azimuthal modes of f_r of two and more scatterings, symmetric in its arguments in \[0, 1\]: f_r is the sum over m of
@@ -186,7 +186,7 @@ impl Transport {
         for (mode, matrix) in modes.iter_mut().zip(&self.transmitted) {
             *mode = bilinear(matrix, &from, &to);
         }
-        fourier_sum(modes, -cos_azimuth(wi, wo)) * -wo.z
+        cosine_sum(modes, -cos_azimuth(wi, wo)) * -wo.z
     }
 
     /// The mesh's cosines in (0, 1), ascending, and their weights for integrals over the cosine: what is smooth in between for this slab
@@ -222,15 +222,6 @@ fn single_mode_0(slab: &Slab, one: Elevation, other: Elevation) -> f64 {
 
 fn bilinear(matrix: &DMatrix<f64>, from: &Stencil, to: &Stencil) -> f64 {
     to.interpolate(|j| from.interpolate(|i| matrix[(i, j)]))
-}
-
-/// The sum over m of (1 if m = 0, else 2) modes\[m\] cos(m phi), by Clenshaw's recurrence.
-fn fourier_sum(modes: &[f64], cos_phi: f64) -> f64 {
-    let (mut next, mut after) = (0.0, 0.0);
-    for mode in modes[1..].iter().rev() {
-        (next, after) = (2.0 * mode + 2.0 * cos_phi * next - after, next);
-    }
-    modes[0] + cos_phi * next - after
 }
 
 /// Cosine of the azimuth between two directions; 1 where one of them is the normal.

@@ -1,5 +1,6 @@
-//! The model that is fitted: a clamped cosine, linearly transformed.
+//! What a cell of the table stands for: a clamped cosine, linearly transformed.
 
+use crate::math::warp::cosine_hemisphere;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -17,6 +18,15 @@ impl Ltc {
     /// a^2 z / (pi |v|^4).
     pub fn density(&self, wo: DVec3) -> f64 {
         self.density_and_slopes(wo).0
+    }
+
+    /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, transformed by the matrix
+    /// (1/a, 0, -b/a), (0, 1/a, 0), (0, 0, 1) and normalised. `a` is above 0.
+    pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
+        let Self { a, b } = *self;
+        assert!(a > 0.0, "a singular matrix has no samples: a = {a}");
+        let cosine = cosine_hemisphere(uniforms);
+        DVec3::new(cosine.x - b * cosine.z, cosine.y, a * cosine.z).normalize()
     }
 
     /// The density and its derivatives by ln(a) and by b.
