@@ -20,7 +20,7 @@ pub use report::{Errors, Report};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::table::{Ltc, LtcTable, node};
-use albedo::Truth;
+use albedo::Albedos;
 use least_squares::Free;
 use lobe::Lobes;
 use rayon::prelude::*;
@@ -42,8 +42,8 @@ pub const RESOLUTIONS: RangeInclusive<usize> = 2..=128;
 pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcTable, Report) {
     assert!(RESOLUTIONS.contains(&resolution), "a table has {RESOLUTIONS:?} nodes a side: {resolution}");
     let node = |k: usize| node(k, resolution);
-    let truth = Truth::alphas(resolution);
-    let (done, all) = (AtomicUsize::new(0), resolution - 1 + resolution + truth.len());
+    let samples = Albedos::samples(resolution);
+    let (done, all) = (AtomicUsize::new(0), 2 * resolution - 1 + samples.len() + Report::steps(resolution));
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
     let lobes: Vec<Lobes> = (1..resolution)
         .into_par_iter()
@@ -61,15 +61,16 @@ pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcT
             row
         })
         .collect();
-    let truth = Truth::new(resolution, &truth, step);
-    let r = albedo::fit(resolution, &truth);
+    let samples = Albedos::new(samples.clone(), samples, &step);
+    let at_node = |(i, j): (usize, usize)| if i == 0 { 0.0 } else { lobes[i - 1].transport.albedo(node(j)) };
+    let nodes = || (0..resolution).flat_map(|i| (0..resolution).map(move |j| (i, j)));
+    let r = albedo::fit(resolution, &samples, &nodes().map(at_node).collect::<Vec<_>>());
     let cell = |i: usize, j: usize| {
         let Ltc { a, b } = rows[j][i.max(1) - 1].ltc;
         [a, b, r[i * resolution + j]].map(seven_digits)
     };
-    let cells = (0..resolution).flat_map(|i| (0..resolution).map(move |j| (i, j))).map(|(i, j)| cell(i, j)).collect();
-    let table = LtcTable::new([resolution; 2], cells);
-    let report = Report::new(&table, rows.iter().flatten(), &truth);
+    let table = LtcTable::new([resolution; 2], nodes().map(|(i, j)| cell(i, j)).collect());
+    let report = Report::new(&table, rows.iter().flatten(), &step);
     (table, report)
 }
 

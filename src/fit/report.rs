@@ -1,6 +1,6 @@
 //! How good a fitted table is.
 
-use super::albedo::Truth;
+use super::albedo::Albedos;
 use super::{Fit, GRAZING_MU, RESOLUTION};
 use crate::table::LtcTable;
 use std::fmt;
@@ -37,22 +37,31 @@ pub struct Report {
     pub lobe: Errors,
     /// Its mean weighted by R.
     pub weighted: f64,
-    /// Relative error of the interpolated r at the points to which it was fitted.
-    pub albedo: Errors,
+    /// Relative error of the interpolated r at the centres of the table's cells.
+    pub centres: Errors,
+    /// The same at the centres of a grid of [`SPREAD`] x [`SPREAD`] cells, which fall anywhere in the table's. Were they at random, the
+    /// greatest would be a matter of the few next to alpha = mu = 0: see [`albedo`](super::albedo).
+    pub spread: Errors,
 }
 
+/// Cells a side of the grid that does not follow the table's.
+pub const SPREAD: usize = 48;
+
 impl Report {
-    pub(super) fn new<'a>(table: &LtcTable, fits: impl Iterator<Item = &'a Fit>, truth: &Truth) -> Self {
+    /// `step` is told of each slab that is solved, [`Report::steps`] in all, from any of the working threads.
+    pub(super) fn new<'a>(table: &LtcTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let bright: Vec<&Fit> = fits.filter(|fit| fit.albedo > DIM).collect();
         let albedo: f64 = bright.iter().map(|fit| fit.albedo).sum();
         let weighted = bright.iter().map(|fit| fit.albedo * fit.distance).sum::<f64>() / albedo;
         let lobe = Errors::new(bright.iter().map(|fit| fit.distance).collect());
-        let mut relative = Vec::new();
-        for (row, &alpha) in truth.values.chunks_exact(truth.mus.len()).zip(&truth.alphas) {
-            let bright = row.iter().zip(&truth.mus).filter(|(value, _)| **value > DIM);
-            relative.extend(bright.map(|(value, &mu)| (table.lookup(alpha, mu)[2] / value - 1.0).abs()));
-        }
-        Self { resolution: table.size()[0], nodes: bright.len(), lobe, weighted, albedo: Errors::new(relative) }
+        let resolution = table.size()[0];
+        let [centres, spread] = [resolution - 1, SPREAD].map(|cells| albedo_errors(table, cells, &step));
+        Self { resolution, nodes: bright.len(), lobe, weighted, centres, spread }
+    }
+
+    /// How many slabs a report solves.
+    pub(super) fn steps(resolution: usize) -> usize {
+        resolution - 1 + SPREAD
     }
 
     /// What stands at the head of the table's .csv, a string a line: what it is, its axes, its errors, how it was made.
@@ -73,9 +82,22 @@ a, b of mu = 0 are those of mu = {GRAZING_MU}. alpha = 0 has no lobe: a and b of
     }
 }
 
+/// Relative errors of the table's r at the centres of `cells` x `cells` cells, where R > 1e-3.
+fn albedo_errors(table: &LtcTable, cells: usize, step: impl Fn() + Sync) -> Errors {
+    let centres: Vec<f64> = (0..cells).map(|k| (k as f64 + 0.5) / cells as f64).collect();
+    let truth = Albedos::new(centres.clone(), centres, step);
+    let mut errors = Vec::new();
+    for (row, &alpha) in truth.values.chunks_exact(cells).zip(&truth.alphas) {
+        let bright = row.iter().zip(&truth.mus).filter(|(value, _)| **value > DIM);
+        errors.extend(bright.map(|(value, &mu)| (table.lookup(alpha, mu)[2] / value - 1.0).abs()));
+    }
+    Errors::new(errors)
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { nodes, lobe, weighted, albedo, .. } = self;
+        let Self { nodes, lobe, weighted, centres, spread, resolution } = self;
+        let cells = resolution - 1;
         writeln!(
             f,
             "Relative L2 error of the lobe, {nodes} nodes with R > {DIM}: mean {:.4}, median {:.4}, max {:.4}, weighted by R {weighted:.4}.",
@@ -83,8 +105,9 @@ impl fmt::Display for Report {
         )?;
         write!(
             f,
-            "Relative error of the interpolated r where R > {DIM}: mean {:.4}, median {:.4}, max {:.4}.",
-            albedo.mean, albedo.median, albedo.max
+            "Relative error of the interpolated r where R > {DIM}: at the {cells} x {cells} centres of its cells mean {:.4}, max {:.4};\n\
+             at those of {SPREAD} x {SPREAD} cells mean {:.4}, max {:.4}.",
+            centres.mean, centres.max, spread.mean, spread.max
         )
     }
 }
