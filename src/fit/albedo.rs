@@ -47,10 +47,10 @@ pub struct Albedos {
 }
 
 impl Albedos {
-    /// Solves the slab for each of `alphas` in (0, 1\]. `step` is told of each, from any of the working threads.
+    /// Solves the slab for each of `alphas` in (0, 1\], R to 2e-4 of itself. `step` is told of each, from any of the working threads.
     pub fn new(alphas: Vec<f64>, mus: Vec<f64>, step: impl Fn() + Sync) -> Self {
         let row = |&alpha: &f64| -> Vec<f64> {
-            let solution = Transport::new(Slab::new(alpha), Resolution { modes: 1, ..Default::default() });
+            let solution = Transport::new(Slab::new(alpha), Resolution { modes: 1, refinement: 0.5, ridge: None });
             step();
             mus.iter().map(|&mu| solution.albedo(mu)).collect()
         };

@@ -1,4 +1,4 @@
-//! The layer: 0 <= z <= 1 of fibres along its normal z, with what is known of it in closed form.
+//! The layer of fibres along its normal z, of thickness 1 if nothing is said, with what is known of it in closed form.
 
 use super::modes::Elevation;
 use super::sggx::Sggx;
@@ -11,13 +11,24 @@ use std::sync::LazyLock;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
     medium: Sggx,
+    thickness: f64,
 }
 
 impl Slab {
-    /// The slab of roughness `alpha` in (0, 1]: small is fuzz, large is dust.
+    /// The slab of roughness `alpha` in (0, 1] and thickness 1: small is fuzz, large is dust.
     pub fn new(alpha: f64) -> Self {
         assert!(alpha > 0.0 && alpha <= 1.0, "alpha is in (0, 1]: {alpha}");
-        Self { medium: Sggx::new(sigma_from_alpha(alpha)) }
+        Self { medium: Sggx::new(sigma_from_alpha(alpha)), thickness: 1.0 }
+    }
+
+    /// The same fibres in a slab of another thickness, in units of the mean free path across them; > 0. The tables are of 1.
+    pub fn with_thickness(self, thickness: f64) -> Self {
+        assert!(thickness > 0.0 && thickness.is_finite(), "a thickness is above 0: {thickness}");
+        Self { thickness, ..self }
+    }
+
+    pub fn thickness(&self) -> f64 {
+        self.thickness
     }
 
     pub fn medium(&self) -> &Sggx {
@@ -29,17 +40,17 @@ impl Slab {
         (-self.depth(mu)).exp()
     }
 
-    /// Optical depth of the slab at cosine `mu` in \[0, 1\]: extinction / mu, infinite at 0.
+    /// Optical depth of the slab at cosine `mu` in \[0, 1\]: extinction x thickness / mu, infinite at 0.
     pub fn depth(&self, mu: f64) -> f64 {
         assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
-        self.medium.extinction(mu) / mu
+        self.medium.extinction(mu) * self.thickness / mu
     }
 
     /// Single scattering's part of the reflected lobe f_r(wi, wo) mu_o, per steradian; exact.
     ///
     /// `wi` and `wo` are unit, in the upper hemisphere (z >= 0), pointing away. At depth t, a share exp(-A_i t) of the light
     /// arrives, K dt / mu_i of it scatters into wo, and exp(-A_o t) of that leaves, with A = extinction / mu; integrated over t
-    /// in \[0, 1\], and written so that either cosine may be 0. Both 0 (no light enters, none leaves) gives 0.
+    /// in \[0, 1\] (for thickness 1), and written so that either cosine may be 0. Both 0 (no light enters, none leaves) gives 0.
     pub fn single_scattering(&self, wi: DVec3, wo: DVec3) -> f64 {
         let (mu_i, mu_o) = (wi.z, wo.z);
         assert!((0.0..=1.0).contains(&mu_i) && (0.0..=1.0).contains(&mu_o), "cosines {mu_i}, {mu_o} are in [0, 1]");
@@ -61,20 +72,20 @@ impl Slab {
         self.medium.kernel(wi, wo) * self.transmitted_once(one, other) * other.mu
     }
 
-    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o). Infinite where
-    /// both cosines are 0.
+    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o) for thickness 1
+    /// (and the attenuation's depths A for any). Infinite where both cosines are 0.
     pub(super) fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
         let attenuated = -(-self.depth(one.mu) - self.depth(other.mu)).exp_m1();
         attenuated / (self.medium.extinction_at(one) * other.mu + self.medium.extinction_at(other) * one.mu)
     }
 
     /// What the kernel is multiplied by to give single scattering's transmitted radiance per unit of flux:
-    /// (exp(-A_o) - exp(-A_i)) / ((A_i - A_o) mu_i mu_o).
+    /// (exp(-A_o) - exp(-A_i)) / ((A_i - A_o) mu_i mu_o) for thickness 1.
     pub(super) fn transmitted_once(&self, one: Elevation, other: Elevation) -> f64 {
         let (depth, other_depth) = (self.depth(one.mu), self.depth(other.mu));
         let difference = (depth - other_depth).abs();
         let mean = if difference > 0.0 { -(-difference).exp_m1() / difference } else { 1.0 };
-        (-depth.min(other_depth)).exp() * mean / (one.mu * other.mu)
+        (-depth.min(other_depth)).exp() * mean * self.thickness / (one.mu * other.mu)
     }
 
     /// Single scattering's part of the albedo R at cosine `mu` in \[0, 1\]: the integral of [`Self::single_scattering`] over the

@@ -172,19 +172,20 @@ impl Walk {
         counts
     }
 
-    /// Follows a path from its first scattering, at `depth` below the top, until it leaves.
+    /// Follows a path from its first scattering, at `depth` below the top in units of the thickness, until it leaves.
     fn path(&self, mut depth: f64, rng: &mut Pcg64, counts: &mut Counts) {
         let medium = self.slab.medium();
         // Light comes from wi: what points back along the first flight.
         let mut back = DVec3::new(sine(self.mu), 0.0, self.mu);
         let mut seen = medium.stretched(back).normalize();
         let mut orders = 0_u64;
+        let thickness = self.slab.thickness();
         loop {
             let out = medium.sample_seen(back, seen, rng);
             orders += 1;
             let stretched = medium.stretched(out);
             let inverse_extinction = 1.0 / stretched.length();
-            depth -= out.z * warp::exponential(rng) * inverse_extinction;
+            depth -= out.z * warp::exponential(rng) * inverse_extinction / thickness;
             if depth <= 0.0 {
                 let histogram = if orders == 1 { &mut counts.reflected_once } else { &mut counts.reflected_more };
                 return histogram.count(out);

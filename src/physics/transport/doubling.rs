@@ -19,7 +19,7 @@ use nalgebra::DMatrix;
 const THIN: f64 = 0.15;
 
 /// Terms of (1 - R R)^-1 below this share of the first are left out.
-const LEAST: f64 = 1e-17;
+const LEAST: f64 = 1e-15;
 
 /// How a layer of thickness 1 reflects and transmits, from its rates: `loss` of light onwards (the diagonal: what leaves a node per unit
 /// length; elsewhere minus what it passes on to the others), `gain` of light going back.

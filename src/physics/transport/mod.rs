@@ -199,7 +199,7 @@ impl Transport {
 /// The layer of one mode from its rates.
 fn layer(slab: &Slab, mesh: &Mesh, mode: usize, rates: &Rates) -> Layer {
     let n = mesh.len();
-    let per_length = |i: usize| 1.0 / mesh.nodes[i].mu;
+    let per_length = |i: usize| slab.thickness() / mesh.nodes[i].mu;
     let gain = DMatrix::from_fn(n, n, |i, j| rates.back[(i, j)] * per_length(i));
     let mut loss = DMatrix::from_fn(n, n, |i, j| if i == j { 0.0 } else { -rates.onwards[(i, j)] * per_length(i) });
     for i in 0..n {

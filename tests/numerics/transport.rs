@@ -1,0 +1,320 @@
+//! The deterministic solution: against itself on other meshes, against the walk, and against what is known otherwise.
+
+use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
+use glam::DVec3;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use velour::fit::hemisphere::Hemisphere;
+use velour::math::quadrature::gauss_legendre;
+use velour::math::sine;
+use velour::physics::slab::Slab;
+use velour::physics::transport::{Resolution, Transport};
+use velour::physics::walk::{FirstFlight, Histogram, Walk};
+
+fn solve(alpha: f64, modes: usize, refinement: f64) -> Transport {
+    Transport::new(Slab::new(alpha), Resolution { modes, refinement, ridge: None })
+}
+
+/// Where the tables have nodes in mu; the first one at the horizon's edge.
+fn mus() -> impl Iterator<Item = f64> {
+    (0..32).map(|j| (f64::from(j) / 31.0).max(1e-3))
+}
+
+fn incident(mu: f64) -> DVec3 {
+    DVec3::new(sine(mu), 0.0, mu)
+}
+
+/// Largest relative differences over the table's mus: of R, and of the reflected lobe in L2.
+fn difference(one: &Transport, other: &Transport) -> [f64; 2] {
+    let hemisphere = Hemisphere::new(other.cosines());
+    let (mut albedo, mut lobe) = (0.0_f64, 0.0_f64);
+    for mu in mus() {
+        albedo = albedo.max((one.albedo(mu) / other.albedo(mu) - 1.0).abs());
+        let wi = incident(mu);
+        let [mut square, mut norm] = [0.0; 2];
+        for (&wo, weight) in hemisphere.nodes.iter().zip(&hemisphere.weights) {
+            let truth = other.reflected(wi, wo);
+            square += weight * (one.reflected(wi, wo) - truth).powi(2);
+            norm += weight * truth * truth;
+        }
+        lobe = lobe.max((square / norm).sqrt());
+    }
+    [albedo, lobe]
+}
+
+#[test]
+fn two_meshes_agree_at_every_node() {
+    // Limits are some three times what is found. Below alpha = 2/31 the wide panels' polynomials are what is left in the lobes.
+    let check = |i: f64, [albedo_limit, lobe_limit]: [f64; 2]| {
+        let [albedo, lobe] = difference(&solve(i / 31.0, 4, 1.0), &solve(i / 31.0, 4, 1.5));
+        assert!(albedo < albedo_limit && lobe < lobe_limit, "alpha {i}/31: R {albedo:.1e}, lobe {lobe:.1e}");
+    };
+    (2..32).into_par_iter().for_each(|i| check(f64::from(i), [2e-4, 3e-4]));
+    check(1.0, [5e-5, 1e-3]);
+    check(0.5, [5e-5, 1e-3]);
+}
+
+#[test]
+fn errors_fall_with_the_mesh_at_high_order() {
+    for (alpha, limit) in [(0.7, 1e-9), (0.3, 1e-6), (0.1, 1e-6)] {
+        let finest = solve(alpha, 1, 4.0);
+        let [coarse, fine] = [0.5, 1.0].map(|refinement| {
+            let solution = solve(alpha, 1, refinement);
+            [0.3, 0.5, 0.8]
+                .map(|mu| (solution.albedo(mu) / finest.albedo(mu) - 1.0).abs())
+                .into_iter()
+                .fold(0.0, f64::max)
+        });
+        println!("alpha {alpha}: {coarse:.1e} {fine:.1e}");
+        assert!(fine < limit, "alpha {alpha}: {fine:e}");
+        let _ = coarse;
+    }
+}
+
+#[test]
+fn errors_fall_with_the_number_of_modes() {
+    for alpha in [0.1, 0.3, 0.6] {
+        let all = solve(alpha, 12, 1.0);
+        let errors = [1, 2, 3, 4, 6].map(|modes| difference(&solve(alpha, modes, 1.0), &all)[1]);
+        println!("alpha {alpha}: {errors:.1?}");
+        assert!(errors[3] < 3e-4, "alpha {alpha}: {errors:?}");
+    }
+}
+
+/// R of an isotropically scattering slab of depth 1, from its collisions' density over depth: C = first + 1/2 integral of
+/// E_1(|t - t'|) C(t') dt', constant in each of `n` cells. Knows nothing of elevations.
+fn isotropic_albedo(mu: f64, n: usize) -> f64 {
+    let h = 1.0 / n as f64;
+    // E_2 and E_3 as integrals over the cosine; x >= 0.
+    let rule: Vec<(f64, f64)> = gauss_legendre(80, 0.0, 1.0);
+    let moment = |x: f64, power: i32| -> f64 {
+        rule.iter().map(|(t, w)| (t * t, 2.0 * t * w)).map(|(m, w)| w * m.powi(power) * (-x / m).exp()).sum()
+    };
+    let e3: Vec<f64> = (0..=n + 1).map(|k| moment(k as f64 * h, 1)).collect();
+    // Mean over one cell of 1/2 the integral of E_1 over another, k cells apart: second differences of E_3.
+    let coupling = |k: usize| {
+        if k == 0 { 1.0 - (e3[0] - e3[1]) / h } else { 0.5 * (e3[k - 1] - 2.0 * e3[k] + e3[k + 1]) / h }
+    };
+    let first = DVector::from_fn(n, |i, _| ((-(i as f64) * h / mu).exp() - (-((i + 1) as f64) * h / mu).exp()) / h);
+    let matrix = DMatrix::from_fn(n, n, |i, j| f64::from(i == j) - coupling(i.abs_diff(j)));
+    let density = matrix.lu().solve(&first).expect("light leaves: the matrix is regular");
+    density.iter().enumerate().map(|(i, density)| density * 0.5 * (e3[i] - e3[i + 1])).sum()
+}
+
+#[test]
+fn the_isotropic_slab_agrees_with_its_solution_over_depth() {
+    let slab = solve(1.0, 1, 1.0);
+    for mu in [1.0, 0.5, 0.1, 0.01] {
+        // Piecewise constant: second order, so that two resolutions give the limit.
+        let [coarse, fine] = [150, 300].map(|n| isotropic_albedo(mu, n));
+        let truth = fine + (fine - coarse) / 3.0;
+        assert!((slab.albedo(mu) / truth - 1.0).abs() < 3e-5, "mu {mu}: {}, {truth}", slab.albedo(mu));
+    }
+}
+
+#[test]
+fn albedos_are_the_known_ones() {
+    // From walks of 1e8 paths or more by another program; each within 5e-5.
+    let known = [(1.0, 1.0, 0.3413), (1.0, 0.01, 0.7498), (0.7, 0.4, 0.3768), (0.5, 0.5, 0.1535), (0.3, 0.15, 0.3274)];
+    for (alpha, mu, truth) in known {
+        let albedo = solve(alpha, 1, 1.0).albedo(mu);
+        assert!((albedo - truth).abs() < 1e-4, "alpha {alpha}, mu {mu}: {albedo}, {truth}");
+    }
+}
+
+/// 35 cells over the whole table, low alpha included: R from 2e-8 to 0.88.
+const CELLS: [(u32, [u32; 5]); 7] = [
+    (1, [0, 1, 2, 4, 12]),
+    (2, [0, 1, 3, 6, 31]),
+    (4, [0, 2, 5, 9, 20]),
+    (8, [0, 3, 7, 14, 31]),
+    (14, [0, 4, 10, 20, 31]),
+    (22, [0, 5, 12, 21, 31]),
+    (31, [0, 3, 9, 18, 31]),
+];
+
+#[test]
+fn albedos_agree_with_the_walk() {
+    for (i, js) in CELLS {
+        let solution = solve(f64::from(i) / 31.0, 1, 1.0);
+        for j in js {
+            let mu = (f64::from(j) / 31.0).max(1e-3);
+            let slab = *solution.slab();
+            let walk = Walk { slab, mu, first_flight: FirstFlight::Scattered, paths: 300_000, seed: 21 };
+            let counts = walk.run().reflected_more.total() as f64;
+            let walked = slab.single_scattering_albedo(mu) + counts * walk.share();
+            // Of a count; where nothing came back, of one.
+            let error = walk.share() * counts.max(1.0).sqrt();
+            assert_within(solution.albedo(mu), walked, error, 3.0, &format!("alpha {i}/31, mu {j}/31"));
+        }
+    }
+}
+
+/// The shares of multiply scattered reflected light in the walk's bins.
+fn multiple_shares(solution: &Transport, mu: f64) -> Vec<f64> {
+    let mut shares = Vec::new();
+    for row in 0..Histogram::MU_BINS {
+        let [low, high] = Histogram::mu_range(row);
+        for column in 0..Histogram::PHI_BINS {
+            let [first, last] = Histogram::phi_range(column);
+            let mut share = 0.0;
+            for (mu_o, mu_weight) in gauss_legendre(3, low, high) {
+                for (phi, phi_weight) in gauss_legendre(3, first, last) {
+                    let wo = DVec3::new(sine(mu_o) * phi.cos(), sine(mu_o) * phi.sin(), mu_o);
+                    share += 2.0 * mu_weight * phi_weight * solution.multiple_reflected(incident(mu), wo);
+                }
+            }
+            shares.push(share.max(0.0));
+        }
+    }
+    let whole: f64 = shares.iter().sum();
+    shares.iter_mut().for_each(|share| *share /= whole);
+    shares
+}
+
+fn lobe_probability(walked: (f64, f64), solved: (f64, f64)) -> f64 {
+    let (alpha, mu) = walked;
+    let walk = Walk { slab: Slab::new(alpha), mu, first_flight: FirstFlight::Scattered, paths: 300_000, seed: 22 };
+    let counts: Vec<u64> = walk.run().reflected_more.bins().flatten().copied().collect();
+    chi_square(&counts, &multiple_shares(&solve(solved.0, 6, 1.0), solved.1), 1e-9)
+}
+
+#[test]
+fn lobes_agree_with_the_walks_histogram() {
+    let cells = [
+        (1.0 / 31.0, 1e-3),
+        (1.0 / 31.0, 1.0 / 31.0),
+        (2.0 / 31.0, 2.0 / 31.0),
+        (0.1, 0.1),
+        (0.15, 0.3),
+        (0.2, 0.01),
+        (0.3, 0.5),
+        (0.5, 0.2),
+        (0.7, 1.0),
+        (1.0, 0.1),
+    ];
+    for cell in cells {
+        let p = lobe_probability(cell, cell);
+        assert!(p > SIGNIFICANCE, "alpha, mu {cell:?}: p = {p:.1e}");
+    }
+}
+
+#[test]
+fn another_slabs_lobe_is_told() {
+    for other in [(0.33, 0.5), (0.3, 0.55)] {
+        let p = lobe_probability((0.3, 0.5), other);
+        assert!(p < REJECTED, "(0.3, 0.5) is taken for {other:?}: p = {p:.1e}");
+    }
+}
+
+#[test]
+fn light_is_neither_lost_nor_gained() {
+    for alpha in [1.0, 0.5, 0.2, 0.1, 2.0 / 31.0, 1.0 / 31.0, 0.01] {
+        let solution = solve(alpha, 1, 1.0);
+        for mu in mus().chain(solution.cosines().map(|(mu, _)| mu)) {
+            let sum = solution.albedo(mu) + solution.transmittance(mu) + solution.slab().unscattered(mu);
+            assert!((sum - 1.0).abs() < 1e-6, "alpha {alpha}, mu {mu}: {sum}");
+        }
+    }
+}
+
+#[test]
+fn a_reflected_lobe_holds_its_albedo_and_a_transmitted_one_its_transmittance() {
+    for (alpha, mu) in [(1.0, 0.7), (0.5, 0.2), (0.3, 0.05), (0.2, 0.6)] {
+        let resolution = Resolution { ridge: Some(mu), ..Default::default() };
+        let solution = Transport::new(Slab::new(alpha), resolution);
+        let hemisphere = Hemisphere::new(solution.cosines());
+        let wi = incident(mu);
+        let reflected = hemisphere.integral(|node| solution.reflected(wi, hemisphere.nodes[node]));
+        assert!((reflected / solution.albedo(mu) - 1.0).abs() < 1e-4, "alpha {alpha}, mu {mu}: {reflected}");
+        let below = |node: usize| DVec3::new(1.0, 1.0, -1.0) * hemisphere.nodes[node];
+        let transmitted = hemisphere.integral(|node| solution.transmitted(wi, below(node)));
+        let transmittance = solution.transmittance(mu);
+        assert!(
+            (transmitted / transmittance - 1.0).abs() < 2e-3,
+            "alpha {alpha}, mu {mu}: {transmitted}, {transmittance}"
+        );
+    }
+}
+
+#[test]
+fn reciprocity_holds_to_round_off() {
+    for alpha in [1.0, 0.3, 0.1, 1.0 / 31.0] {
+        let solution = solve(alpha, 4, 1.0);
+        for (one, other) in [(0.9, 0.2), (0.5, 0.51), (0.03, 0.7), (1.0, 0.1)] {
+            let (wi, wo) = (incident(one), DVec3::new(-0.6 * sine(other), 0.8 * sine(other), other));
+            let (there, back) = (solution.reflected(wi, wo) * wi.z, solution.reflected(wo, wi) * wo.z);
+            assert!((there / back - 1.0).abs() < 1e-11, "alpha {alpha}, {one}, {other}: {there:e}, {back:e}");
+        }
+    }
+}
+
+#[test]
+fn a_thin_slab_scatters_once() {
+    for alpha in [1.0, 0.3, 0.1] {
+        for mu in [1.0, 0.3] {
+            let excess = [1e-3, 1e-4].map(|thickness| {
+                let slab = Slab::new(alpha).with_thickness(thickness);
+                let solution = Transport::new(slab, Resolution { modes: 1, ..Default::default() });
+                solution.albedo(mu) / slab.single_scattering_albedo(mu) - 1.0
+            });
+            // The rest is of the order of the thickness times its logarithm.
+            assert!(excess[1] > 0.0 && excess[1] < 2e-3, "alpha {alpha}, mu {mu}: {excess:?}");
+            assert!((4.0..11.0).contains(&(excess[0] / excess[1])), "alpha {alpha}, mu {mu}: {excess:?}");
+        }
+    }
+}
+
+#[test]
+fn dim_albedos_are_clean() {
+    // Towards sigma = 0 the steep lobes fall as sigma^3 = alpha^6 while their form holds still.
+    let [a, b, c] = [0.02, 0.01, 0.005].map(|alpha| solve(alpha, 1, 1.0).albedo(1.0) / f64::powi(alpha, 6));
+    assert!((1.4e-12..1.4e-10).contains(&(a * 0.02_f64.powi(6))), "R(0.02, 1) = {:e}", a * 0.02_f64.powi(6));
+    assert!((b / a - 1.0).abs() < 0.1 && (c / b - 1.0).abs() < 0.05 && (c / b - 1.0).abs() < (b / a - 1.0).abs());
+    let difference = solve(0.01, 1, 1.0).albedo(1.0) / solve(0.01, 1, 1.5).albedo(1.0) - 1.0;
+    assert!(difference.abs() < 1e-5, "two meshes: {difference:e}");
+}
+
+#[test]
+fn the_limit_at_the_horizon_is_reached() {
+    // Known from finer meshes of a prototype.
+    for (alpha, limit) in [(1.0 / 31.0, 0.880), (0.01, 0.921), (0.005, 0.943)] {
+        let solution = solve(alpha, 1, 1.0);
+        assert!((solution.albedo(0.0) - limit).abs() < 4e-3, "alpha {alpha}: {}", solution.albedo(0.0));
+        let [near, nearer] = [1e-5, 1e-7].map(|mu| solution.albedo(0.0) - solution.albedo(mu));
+        assert!(nearer > 0.0 && nearer < near, "alpha {alpha}: {near:e}, {nearer:e}");
+    }
+}
+
+#[test]
+fn the_transmitted_lobe_agrees_with_the_walk() {
+    // By the elevation below, where the walk has no histogram: one order more of the same integral.
+    for (alpha, mu) in [(1.0, 0.5), (0.4, 0.3)] {
+        let solution = Transport::new(Slab::new(alpha), Resolution { ridge: Some(mu), ..Default::default() });
+        let walk = Walk { slab: *solution.slab(), mu, first_flight: FirstFlight::Analog, paths: 400_000, seed: 23 };
+        let transmitted = walk.run().transmitted as f64 * walk.share();
+        let error = (transmitted * (1.0 - transmitted) * walk.share()).sqrt();
+        assert_within(solution.transmittance(mu), transmitted, error, 3.0, &format!("alpha {alpha}, mu {mu}"));
+    }
+}
+
+#[test]
+fn the_same_slab_gives_the_same_bits() {
+    let [one, other] = [(); 2].map(|()| solve(0.3, 4, 1.0));
+    let (wi, wo) = (incident(0.4), incident(0.7));
+    assert_eq!(one.reflected(wi, wo).to_bits(), other.reflected(wi, wo).to_bits());
+}
+
+#[test]
+fn cosines_outside_their_range_are_told() {
+    let solution = solve(0.5, 1, 0.5);
+    for mu in [-0.1, 1.1, f64::NAN, f64::INFINITY] {
+        let caught = std::panic::catch_unwind(|| solution.albedo(mu)).expect_err("a wrong cosine");
+        let message = caught.downcast_ref::<String>().expect("a message");
+        assert!(message.contains("mu is in [0, 1]"), "{message}");
+    }
+    for alpha in [0.0, -0.5, 1.5, f64::NAN] {
+        assert!(std::panic::catch_unwind(|| Slab::new(alpha)).is_err(), "alpha {alpha}");
+    }
+}
