@@ -67,7 +67,8 @@ impl Elevation {
 impl Sggx {
     /// Extinction along an elevation, as [`Sggx::extinction`].
     pub fn extinction_at(&self, elevation: Elevation) -> f64 {
-        (self.sigma() * elevation.mu).hypot(elevation.s)
+        let along = self.sigma() * elevation.mu;
+        (along * along + elevation.s * elevation.s).sqrt()
     }
 
     /// The first modes `K_0`, `K_1`, ... of the kernel between two propagation directions, one for each place in `modes`; per length

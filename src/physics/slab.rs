@@ -74,9 +74,18 @@ impl Slab {
 
     /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o) for thickness 1
     /// (and the attenuation's depths A for any). Infinite where both cosines are 0.
-    pub(super) fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
-        let attenuated = -(-self.depth(one.mu) - self.depth(other.mu)).exp_m1();
-        attenuated / (self.medium.extinction_at(one) * other.mu + self.medium.extinction_at(other) * one.mu)
+    pub fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
+        let [here, there] = [one, other].map(|elevation| self.medium.extinction_at(elevation));
+        let attenuated = -(-(here / one.mu + there / other.mu) * self.thickness).exp_m1();
+        attenuated / (here * other.mu + there * one.mu)
+    }
+
+    /// Mode 0, the mean over azimuths, of single scattering's f_r between two elevations in \[0, 1\]; exact, symmetric. Infinite where both
+    /// cosines are 0.
+    pub fn single_scattering_mode_0(&self, one: Elevation, other: Elevation) -> f64 {
+        let mut mode = [0.0];
+        self.medium.kernel_modes(one, other.opposite(), &mut mode);
+        mode[0] * self.reflected_once(one, other)
     }
 
     /// What the kernel is multiplied by to give single scattering's transmitted radiance per unit of flux:
@@ -96,10 +105,8 @@ impl Slab {
         // The angle is warped to the horizon, t^3 of the whole: there lies what is narrow.
         let term = |(t, weight): &(f64, f64)| {
             let to = Elevation::from_angle(FRAC_PI_2 * t * t * t);
-            let mut kernel = [0.0];
-            self.medium.kernel_modes(from, to.opposite(), &mut kernel);
             let measure = 2.0 * PI * to.s * to.mu * FRAC_PI_2 * 3.0 * t * t * weight;
-            measure * kernel[0] * self.reflected_once(from, to)
+            measure * self.single_scattering_mode_0(from, to)
         };
         RULE.iter().map(term).sum()
     }

@@ -115,7 +115,7 @@ impl Transport {
         let ratio = DMatrix::from_fn(n, n, |i, j| {
             let [one, other] = [i, j].map(|k| mesh.nodes[k]);
             let single = rates.back[(i, j)] * slab.reflected_once(one, other) * other.mu;
-            (layer.reflected[(i, j)] - single) * spread(j) / single_mode_0(slab, one, other)
+            (layer.reflected[(i, j)] - single) * spread(j) / slab.single_scattering_mode_0(one, other)
         });
         self.reflected.push(smooth::symmetric(mesh, ratio));
         self.transmitted.push(DMatrix::from_fn(n, n, |i, j| {
@@ -163,7 +163,7 @@ impl Transport {
         check(mu_i);
         check(mu_o);
         assert!(modes.len() <= self.reflected.len(), "{} modes are known: {}", self.reflected.len(), modes.len());
-        let single = single_mode_0(&self.slab, Elevation::from_cosine(mu_i), Elevation::from_cosine(mu_o));
+        let single = self.slab.single_scattering_mode_0(Elevation::from_cosine(mu_i), Elevation::from_cosine(mu_o));
         let [from, to] = [mu_i, mu_o].map(|mu| self.mesh.stencil(mu));
         for (mode, matrix) in modes.iter_mut().zip(&self.reflected) {
             *mode = if single > 0.0 { single * bilinear(matrix, &from, &to) } else { 0.0 };
@@ -211,13 +211,6 @@ fn layer(slab: &Slab, mesh: &Mesh, mode: usize, rates: &Rates) -> Layer {
         };
     }
     Layer::new(&loss, &gain)
-}
-
-/// Mode 0 of single scattering's f_r.
-fn single_mode_0(slab: &Slab, one: Elevation, other: Elevation) -> f64 {
-    let mut mode = [0.0];
-    slab.medium().kernel_modes(one, other.opposite(), &mut mode);
-    mode[0] * slab.reflected_once(one, other)
 }
 
 fn bilinear(matrix: &DMatrix<f64>, from: &Stencil, to: &Stencil) -> f64 {
