@@ -1,4 +1,6 @@
-//! The table of lobes: a grid of `(a, b, r)` over `(alpha, mu)`, its bilinear lookup, and its files.
+//! The tables: grids, their lookup, and their files.
+//!
+//! [`LtcTable`], for real time, holds `(a, b, r)` over `(alpha, mu)`:
 //!
 //! | column | meaning | range |
 //! |---|---|---|
@@ -8,12 +10,17 @@
 //! | `r` | albedo of the lobe | \[0, 1\] |
 //!
 //! A .csv holds one line a node, alpha-major; a .dds holds one texel a node, x = alpha, y = mu.
+//!
+//! [`SlabTable`], for path tracers, holds the slab's multiple scattering over `(alpha, mu_i, mu_o)`: see [`slab`]. Its .dds is a volume.
 
 mod csv;
 mod dds;
 mod ltc;
+pub mod slab;
+mod slab_dds;
 
 pub use ltc::Ltc;
+pub use slab::{LEAST_SLAB_ALPHA, SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp, slab_alpha};
 
 use std::fs::File;
 use std::io::Read;
@@ -49,6 +56,8 @@ pub enum TableError {
     Lines { problem: String },
     #[error("{problem}; a table is one 2D texture of RGBA16F or RGBA32F with a DX10 header and no mips")]
     Dds { problem: String },
+    #[error("{problem}; a slab's table is one volume of 32 x 32 x 32 texels of RGBA16F with a DX10 header and no mips")]
+    Volume { problem: String },
 }
 
 /// A grid of transformed cosines: `a`, `b`, `r` at the nodes of `(alpha, mu)`.
@@ -152,6 +161,16 @@ fn load(path: &Path) -> Result<LtcTable, TableError> {
     if extension != "csv" && extension != "dds" {
         return Err(TableError::UnknownExtension);
     }
+    let bytes = read_file(path)?;
+    if extension == "dds" {
+        return LtcTable::from_dds(&bytes);
+    }
+    let text = std::str::from_utf8(&bytes).map_err(|error| TableError::NotText { at: error.valid_up_to() })?;
+    LtcTable::from_csv(text)
+}
+
+/// What an ordinary file of bounded length holds.
+fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(TableError::NoFile);
     }
@@ -160,11 +179,7 @@ fn load(path: &Path) -> Result<LtcTable, TableError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(TableError::TooLong);
     }
-    if extension == "dds" {
-        return LtcTable::from_dds(&bytes);
-    }
-    let text = std::str::from_utf8(&bytes).map_err(|error| TableError::NotText { at: error.valid_up_to() })?;
-    LtcTable::from_csv(text)
+    Ok(bytes)
 }
 
 /// Where node `k` of `n` sits.

@@ -1,0 +1,237 @@
+//! The slab's multiple scattering: a grid over (alpha, mu_i, mu_o) of azimuthal modes, for path tracers.
+//!
+//! With rho_m = mode m of multiple scattering's f_r over X, X = mode 0 of single scattering's f_r, and s = sqrt(1 - mu^2), a node holds
+//!
+//! ```text
+//! v0 = ln(1 + rho_0),   v1 = rho_1 / (s_i s_o),   v2 = rho_2 / (s_i s_o)^2,
+//! ```
+//!
+//! which vary slowly, so that for c = mu_i mu_o - dot(wi, wo)
+//!
+//! ```text
+//! f_r of multiple scattering = X [exp(v0) - 1 + 2 v1 c + 2 v2 (2 c^2 - s_i^2 s_o^2)],   never below 0.
+//! ```
+//!
+//! | axis | texel coordinate | node k of 32 |
+//! |---|---|---|
+//! | x = alpha | 45 alpha^(1/4) - 14 | ((14 + k) / 45)^4: 0.0094 to 1 |
+//! | y = mu_i, z = mu_o | 31 w^(1/3), w = mu^2 (1 + K alpha^4) / (mu^2 + K (1 - (1 - alpha^4) mu^2)), K = 16 alpha^(8/3) | where that is k |
+//!
+//! Light at mu scatters 1 / mu times and comes to know its own height where mu is near sigma^(2/3) = alpha^(4/3): there the nodes are, for
+//! the alpha of the lookup itself, not for that of a node. Linear between the nodes, whose values are fitted for it. Two modes leave
+//! 0.3% of a lobe (relative L2), three 0.05%.
+
+use super::TableError;
+use crate::math::cube_root;
+use half::f16;
+use std::path::Path;
+
+/// Nodes along each axis.
+pub const SLAB_SIDE: usize = 32;
+
+/// Alpha below which the texel coordinate stands still; down from the first node, .0094, to here values are extrapolated.
+pub const LEAST_SLAB_ALPHA: f64 = 0.005;
+
+/// Ranges of v0, v1, v2 in a table that is read; the slab's are \[-.01, 12\], \[-.01, .3\], \[-.02, .01\]. Within them nothing overflows.
+const RANGES: [(f64, f64); 3] = [(-1.0, 16.0), (-1.0, 1.0), (-1.0, 1.0)];
+
+/// The multiple scattering of slabs of all roughnesses, in halves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlabTable {
+    /// v0, v1, v2; mu_o varies fastest, alpha slowest. The same with mu_i and mu_o exchanged.
+    cells: Vec<[f16; 3]>,
+}
+
+/// What a table says of one alpha: its values between the alpha nodes.
+#[derive(Clone, Debug)]
+pub struct SlabSlice {
+    warp: SlabWarp,
+    /// v0, v1, v2, 0; mu_o varies fastest. In `f32`, which halves lose little in, so that all of it stays near the processor.
+    cells: Box<[[f32; 4]; SLAB_SIDE * SLAB_SIDE]>,
+}
+
+/// The modes at one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlabModes {
+    /// exp(v0) = 1 + rho_0: mode 0 of all scattering over that of single scattering.
+    pub growth: f64,
+    /// v1.
+    pub first: f64,
+    /// v2.
+    pub second: f64,
+}
+
+/// The table's axis of mu for one alpha.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlabWarp {
+    /// K.
+    scale: f64,
+    /// 1 + K alpha^4.
+    whole: f64,
+    /// 1 - K (1 - alpha^4).
+    slope: f64,
+}
+
+impl SlabTable {
+    /// The table of `[v0, v1, v2]` at all nodes, mu_o fastest and alpha slowest, rounded to halves.
+    ///
+    /// Panics unless the count fits, values are in range and those of (mu_i, mu_o) and (mu_o, mu_i) are equal.
+    pub fn new(cells: &[[f64; 3]]) -> Self {
+        let cells: Vec<[f16; 3]> = cells.iter().map(|cell| cell.map(f16::from_f64)).collect();
+        assert_eq!(cells.len(), SLAB_SIDE.pow(3), "cells of a table of {SLAB_SIDE} nodes a side");
+        let defect = defect(&cells);
+        assert!(defect.is_none(), "node (alpha, mu_i, mu_o) = {defect:?}");
+        Self { cells }
+    }
+
+    /// The table that is shipped: made by `velour fit`, embedded in the program.
+    pub fn embedded() -> Self {
+        match Self::from_dds(include_bytes!("../../tables/sheen_slab.dds")) {
+            Ok(table) => table,
+            Err(error) => panic!("the embedded table is built in and its tests read it: {error}"),
+        }
+    }
+
+    /// Reads a .dds file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, TableError> {
+        let path = path.as_ref();
+        let table = super::read_file(path).and_then(|bytes| Self::from_dds(&bytes));
+        table.map_err(|problem| TableError::In { path: path.to_owned(), problem: Box::new(problem) })
+    }
+
+    /// A table of what a file holds, or which node (alpha, mu_i, mu_o) has what wrong.
+    pub(super) fn from_halves(cells: Vec<[f16; 3]>) -> Result<Self, ([usize; 3], String)> {
+        defect(&cells).map_or(Ok(Self { cells }), Err)
+    }
+
+    /// v0, v1, v2 of node (k, i, j) of (alpha, mu_i, mu_o).
+    pub fn cell(&self, k: usize, i: usize, j: usize) -> [f64; 3] {
+        self.halves(k, i, j).map(f16::to_f64)
+    }
+
+    pub(super) fn halves(&self, k: usize, i: usize, j: usize) -> [f16; 3] {
+        assert!([k, i, j].iter().all(|node| *node < SLAB_SIDE), "node ({k}, {i}, {j}) of {SLAB_SIDE} a side");
+        self.cells[(k * SLAB_SIDE + i) * SLAB_SIDE + j]
+    }
+
+    /// What the table says of `alpha` in (0, 1\].
+    ///
+    /// Below the first node, .0094, values go on in a straight line: the lobe is off by 2% at .008, 6% at .0065, 13% at
+    /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still in units of the warped mu, and too dark.
+    pub fn slice(&self, alpha: f64) -> SlabSlice {
+        let warp = SlabWarp::new(alpha);
+        let x = alpha_texel(alpha.max(LEAST_SLAB_ALPHA));
+        let below = (x.max(0.0) as usize).min(SLAB_SIDE - 2);
+        let fraction = x - below as f64;
+        let layer = |k: usize| &self.cells[k * SLAB_SIDE * SLAB_SIDE..(k + 1) * SLAB_SIDE * SLAB_SIDE];
+        let mut cells = Box::new([[0.0; 4]; SLAB_SIDE * SLAB_SIDE]);
+        for (cell, (low, high)) in cells.iter_mut().zip(layer(below).iter().zip(layer(below + 1))) {
+            for (value, (low, high)) in cell.iter_mut().zip(low.iter().zip(high)) {
+                *value = ((1.0 - fraction) * low.to_f64() + fraction * high.to_f64()) as f32;
+            }
+        }
+        SlabSlice { warp, cells }
+    }
+}
+
+impl SlabSlice {
+    pub fn warp(&self) -> &SlabWarp {
+        &self.warp
+    }
+
+    /// The modes at cosines in \[0, 1\]; exchanging them changes nothing.
+    pub fn lookup(&self, mu_i: f64, mu_o: f64) -> SlabModes {
+        self.at([mu_i, mu_o].map(|mu| SlabWarp::coordinate(self.warp.root(mu))))
+    }
+
+    /// The modes at two places along the axis, in \[0, 1\].
+    pub fn at(&self, places: [f64; 2]) -> SlabModes {
+        let cell = |place: f64| {
+            let x = place * (SLAB_SIDE - 1) as f64;
+            let below = (x as usize).min(SLAB_SIDE - 2);
+            (below, x - below as f64)
+        };
+        let [(i, s), (j, t)] = places.map(cell);
+        let at = i * SLAB_SIDE + j;
+        let [c00, c01] = [self.cells[at], self.cells[at + 1]];
+        let [c10, c11] = [self.cells[at + SLAB_SIDE], self.cells[at + SLAB_SIDE + 1]];
+        // Equal parts stand together, so that the sum is the same when i and j are exchanged.
+        let [w00, w01, w10, w11] = [(1.0 - s) * (1.0 - t), (1.0 - s) * t, s * (1.0 - t), s * t];
+        let [v0, first, second, _] = std::array::from_fn(|m| {
+            let [c00, c01, c10, c11] = [c00, c01, c10, c11].map(|corner: [f32; 4]| f64::from(corner[m]));
+            (w00 * c00 + w11 * c11) + (w01 * c01 + w10 * c10)
+        });
+        SlabModes { growth: v0.exp(), first, second }
+    }
+}
+
+impl SlabModes {
+    /// Multiple scattering's f_r over X, 0 or more, for c = mu_i mu_o - dot(wi, wo) and `across_square` = (s_i s_o)^2.
+    pub fn over_single(&self, c: f64, across_square: f64) -> f64 {
+        let Self { growth, first, second } = self;
+        (growth - 1.0 + 2.0 * first * c + 2.0 * second * (2.0 * c * c - across_square)).max(0.0)
+    }
+}
+
+impl SlabWarp {
+    /// The axis for `alpha` in (0, 1\].
+    pub fn new(alpha: f64) -> Self {
+        assert!(alpha > 0.0 && alpha <= 1.0, "alpha is in (0, 1]: {alpha}");
+        let fourth = alpha.powi(4);
+        let scale = 16.0 * alpha.powf(8.0 / 3.0);
+        Self { scale, whole: 1.0 + scale * fourth, slope: 1.0 - scale * (1.0 - fourth) }
+    }
+
+    /// sqrt(w), in \[0, 1\], at a cosine in \[0, 1\]: proportional to it near 0.
+    pub fn root(&self, mu: f64) -> f64 {
+        assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
+        (mu * (self.whole / (self.scale + self.slope * mu * mu)).sqrt()).min(1.0)
+    }
+
+    /// The derivative of [`Self::root`] by mu; above 0.
+    pub fn root_slope(&self, mu: f64) -> f64 {
+        let below = self.scale + self.slope * mu * mu;
+        self.whole.sqrt() * self.scale / (below * below.sqrt())
+    }
+
+    /// The cosine whose [`Self::root`] is `root` in \[0, 1\].
+    pub fn mu(&self, root: f64) -> f64 {
+        let w = root * root;
+        (w * self.scale / (self.whole - w * self.slope)).sqrt().min(1.0)
+    }
+
+    /// The place along the axis, node k of n at k / (n - 1), of a root.
+    pub fn coordinate(root: f64) -> f64 {
+        cube_root(root * root)
+    }
+
+    /// The root of a place along the axis, in \[0, 1\].
+    pub fn root_from_coordinate(coordinate: f64) -> f64 {
+        coordinate * coordinate.sqrt()
+    }
+}
+
+/// Alpha of node `k`.
+pub fn slab_alpha(k: usize) -> f64 {
+    ((14.0 + k as f64) / 45.0).powi(4)
+}
+
+/// Where `alpha` > 0 is in units of the nodes; below 0 before the first.
+fn alpha_texel(alpha: f64) -> f64 {
+    45.0 * alpha.sqrt().sqrt() - 14.0
+}
+
+/// The first node (alpha, mu_i, mu_o) with something wrong, and what.
+fn defect(cells: &[[f16; 3]]) -> Option<([usize; 3], String)> {
+    let n = SLAB_SIDE;
+    cells.iter().enumerate().find_map(|(index, cell)| {
+        let [k, i, j] = [index / (n * n), index / n % n, index % n];
+        for (m, (value, (low, high))) in cell.iter().zip(RANGES).enumerate() {
+            if !(low..=high).contains(&value.to_f64()) {
+                return Some(([k, i, j], format!("v{m} must be in [{low}, {high}]: {value}")));
+            }
+        }
+        let mirrored = cells[(k * n + j) * n + i] == *cell;
+        (!mirrored).then(|| ([k, i, j], "mu_i and mu_o exchanged must give the same".to_owned()))
+    })
+}
