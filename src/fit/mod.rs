@@ -14,6 +14,7 @@ pub mod hemisphere;
 pub mod least_squares;
 pub mod lobe;
 mod report;
+pub mod slab;
 
 pub use report::{Errors, Report};
 

@@ -1,0 +1,172 @@
+//! From the slab's solution to its table for path tracers.
+//!
+//! What a node holds is not what is solved there but what interpolates best: in mu, linear interpolation is fitted by least squares to
+//! values at [`PER_CELL`] x [`PER_CELL`] points a cell. With P the pseudo-inverse of the matrix that interpolates from nodes to points,
+//! and G the values at pairs of points, that is P G P^T; it leaves half the error of values at the nodes. In alpha, values are those at
+//! the nodes.
+
+use super::report::{DIM, Errors};
+use crate::math::sine;
+use crate::physics::modes::Elevation;
+use crate::physics::slab::Slab;
+use crate::physics::transport::{Resolution, Transport};
+use crate::table::{SLAB_SIDE, SlabTable, SlabWarp, slab_alpha};
+use glam::DVec3;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use std::fmt;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::hemisphere::Hemisphere;
+
+/// Points a cell and axis of mu.
+const PER_CELL: usize = 4;
+
+/// The modes that the table holds.
+const MODES: usize = 3;
+
+/// How finely the nodes are solved. Against twice that, the table's errors are the same to 2%.
+const NODES: Resolution = Resolution { modes: MODES, refinement: 0.5, ridge: None };
+
+/// Alphas of the report; each is in the middle of a cell.
+const REPORT_ALPHAS: usize = 12;
+
+/// Cosines of the report for each alpha, in the middles of cells.
+const REPORT_MUS: usize = 24;
+
+/// Least alpha of the report, below which the truth is known less well.
+const LEAST_ALPHA: f64 = 1.0 / 31.0;
+
+/// How good a slab's table is, single scattering added: relative errors between its nodes where R > 1e-3 and alpha >= 1/31.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlabReport {
+    /// Relative L2 error of the lobe f_r mu_o over the hemisphere.
+    pub lobe: Errors,
+    /// Relative error of its integral against R.
+    pub albedo: Errors,
+    /// Lobes that were compared.
+    pub cells: usize,
+}
+
+/// Solves the slab at all alphas of the table, the same on any number of threads.
+///
+/// `progress` is told (done, all) steps, from any of the working threads.
+pub fn slab(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, SlabReport) {
+    let (done, all) = (AtomicUsize::new(0), SLAB_SIDE + REPORT_ALPHAS);
+    let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+    let solve = |k: usize| {
+        let layer = layer(slab_alpha(k));
+        step();
+        layer
+    };
+    let layers: Vec<Vec<[f64; 3]>> = (0..SLAB_SIDE).into_par_iter().map(solve).collect();
+    let table = SlabTable::new(&layers.concat());
+    let report = report(&table, step);
+    (table, report)
+}
+
+/// The table's `[v0, v1, v2]` at the pairs of mu nodes for one `alpha` in (0, 1\], not rounded.
+pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
+    let solution = Transport::new(Slab::new(alpha), NODES);
+    let warp = SlabWarp::new(alpha);
+    let points = (SLAB_SIDE - 1) * PER_CELL;
+    let at: Vec<f64> = (0..points).map(|k| (k as f64 + 0.5) / points as f64).collect();
+    let mus: Vec<f64> = at.iter().map(|&t| warp.mu(SlabWarp::root_from_coordinate(t))).collect();
+    let mut values = [(); MODES].map(|()| DMatrix::zeros(points, points));
+    for i in 0..points {
+        for j in 0..=i {
+            for (matrix, value) in values.iter_mut().zip(stored(&solution, mus[i], mus[j])) {
+                (matrix[(i, j)], matrix[(j, i)]) = (value, value);
+            }
+        }
+    }
+    let fit = fit_of_nodes(&at);
+    let nodes = values.map(|matrix| &fit * matrix * fit.transpose());
+    // Sums in another order differ in their last bit: of equal pairs, one is taken.
+    let pairs = (0..SLAB_SIDE).flat_map(|i| (0..SLAB_SIDE).map(move |j| (i.max(j), i.min(j))));
+    pairs.map(|pair| std::array::from_fn(|m| nodes[m][pair])).collect()
+}
+
+/// v0, v1, v2 as the solution has them.
+fn stored(solution: &Transport, mu_i: f64, mu_o: f64) -> [f64; 3] {
+    let mut modes = [0.0; MODES];
+    solution.multiple_modes(mu_i, mu_o, &mut modes);
+    let [one, other] = [mu_i, mu_o].map(Elevation::from_cosine);
+    let single = solution.slab().single_scattering_mode_0(one, other);
+    let across = one.s * other.s;
+    let [rho_0, rho_1, rho_2] = modes.map(|mode| mode / single);
+    [rho_0.max(0.0).ln_1p(), rho_1 / across, rho_2 / (across * across)]
+}
+
+/// From values at points `at` in \[0, 1\] to those at the nodes whose linear interpolation is nearest to them.
+fn fit_of_nodes(at: &[f64]) -> DMatrix<f64> {
+    let interpolation = DMatrix::from_fn(at.len(), SLAB_SIDE, |point, node| {
+        (1.0 - (at[point] * (SLAB_SIDE - 1) as f64 - node as f64).abs()).max(0.0)
+    });
+    let normal = interpolation.tr_mul(&interpolation);
+    let factor = normal.cholesky().expect("each node has points on either side: the hats are independent");
+    factor.solve(&interpolation.transpose())
+}
+
+fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
+    // From the first alpha in question on, spread over the cells up to the last; half a cell aside from the nodes.
+    let first = (0..SLAB_SIDE).find(|k| slab_alpha_between(*k) >= LEAST_ALPHA).unwrap_or_default();
+    let alphas = (0..REPORT_ALPHAS).map(|k| first + k * (SLAB_SIDE - 2 - first) / (REPORT_ALPHAS - 1));
+    let alphas: Vec<f64> = alphas.map(slab_alpha_between).collect();
+    let errors: Vec<Vec<[f64; 2]>> = alphas
+        .par_iter()
+        .map(|&alpha| {
+            let errors = errors(table, alpha);
+            step();
+            errors
+        })
+        .collect();
+    let errors = errors.concat();
+    let [lobe, albedo] = [0, 1].map(|which| Errors::new(errors.iter().map(|error| error[which]).collect()));
+    SlabReport { lobe, albedo, cells: errors.len() }
+}
+
+/// The alpha in the middle between nodes k and k + 1, in units of the nodes.
+fn slab_alpha_between(k: usize) -> f64 {
+    ((slab_alpha(k).sqrt().sqrt() + slab_alpha(k + 1).sqrt().sqrt()) / 2.0).powi(4)
+}
+
+/// Relative errors of lobe and R at one alpha, for the bright ones of [`REPORT_MUS`] cosines.
+fn errors(table: &SlabTable, alpha: f64) -> Vec<[f64; 2]> {
+    let truth = Transport::new(Slab::new(alpha), Resolution::default());
+    let slice = table.slice(alpha);
+    let hemisphere = Hemisphere::new(truth.cosines());
+    let cell = |k: usize| (k * (SLAB_SIDE - 2) / (REPORT_MUS - 1)) as f64 + 0.5;
+    let mus =
+        (0..REPORT_MUS).map(|k| slice.warp().mu(SlabWarp::root_from_coordinate(cell(k) / (SLAB_SIDE - 1) as f64)));
+    mus.filter(|mu| truth.albedo(*mu) > DIM)
+        .map(|mu| {
+            let wi = DVec3::new(sine(mu), 0.0, mu);
+            let [mut square, mut norm, mut albedo] = [0.0; 3];
+            for (&wo, weight) in hemisphere.nodes.iter().zip(&hemisphere.weights) {
+                let [one, other] = [mu, wo.z].map(Elevation::from_cosine);
+                let single = truth.slab().single_scattering(wi, wo);
+                let modes = slice.lookup(mu, wo.z);
+                let over = modes.over_single(mu * wo.z - wi.dot(wo), (one.s * other.s).powi(2));
+                let found = single + truth.slab().single_scattering_mode_0(one, other) * over * wo.z;
+                let value = single + truth.multiple_reflected(wi, wo);
+                square += weight * (found - value).powi(2);
+                norm += weight * value * value;
+                albedo += weight * found;
+            }
+            [(square / norm).sqrt(), (albedo / truth.albedo(mu) - 1.0).abs()]
+        })
+        .collect()
+}
+
+impl fmt::Display for SlabReport {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { lobe, albedo, cells } = self;
+        write!(
+            f,
+            "Slab, {cells} lobes between the nodes with R > {DIM}, alpha >= 1/31: relative L2 error mean {:.4}, median {:.4}, max {:.4};\n\
+             relative error of R mean {:.4}, median {:.4}, max {:.4}.",
+            lobe.mean, lobe.median, lobe.max, albedo.mean, albedo.median, albedo.max
+        )
+    }
+}
