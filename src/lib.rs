@@ -9,9 +9,10 @@
 //! | module | what stands there | with feature |
 //! |---|---|---|
 //! | [`math`] | quadrature, sampling warps, frames: `f64`, no domain knowledge | |
-//! | [`table`] | the table of lobes: bilinear lookup, .csv and .dds in and out | |
+//! | [`table`] | the table of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
 //! | [`physics`] | the slab of fibres, stated and solved | |
 //! | [`fit`] | lobe to LTC, the grid, the error report | |
+//! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
@@ -54,6 +55,7 @@
 
 pub mod fit;
 pub mod math;
+pub mod models;
 pub mod physics;
 #[cfg(feature = "scenes")]
 pub mod picture;

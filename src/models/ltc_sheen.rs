@@ -1,0 +1,75 @@
+//! The sheen of real-time rendering.
+
+use super::{Bsdf, Sample, check_alpha, check_mu, check_uniforms, cosine};
+use crate::math::frame::AzimuthFrame;
+use crate::table::{Ltc, LtcTable, node};
+use glam::DVec3;
+
+/// The sheen as a linearly transformed cosine, with the table's numbers at one alpha (Zeltner, Burley, Chiang 2022, eq. 1).
+///
+/// What the shaders integrate over polygons, so that a path tracer with it shows the same picture. Samples have the lobe's density: their weight is
+/// the albedo r. Not reciprocal, by as much as the fit is off (9% of a lobe in the mean).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LtcSheen {
+    /// `[a, b, r]` at the nodes of mu.
+    nodes: Vec<[f64; 3]>,
+}
+
+impl LtcSheen {
+    /// The sheen of roughness `alpha` in \[0, 1\]. At 0 the shipped table has r = 0: no lobe.
+    pub fn new(table: &LtcTable, alpha: f64) -> Self {
+        check_alpha(alpha);
+        let [_, mus] = table.size();
+        Self { nodes: (0..mus).map(|j| table.lookup(alpha, node(j, mus))).collect() }
+    }
+
+    /// The lobe at a cosine, and its albedo.
+    fn lobe(&self, mu: f64) -> (Ltc, f64) {
+        let x = mu * (self.nodes.len() - 1) as f64;
+        let below = (x as usize).min(self.nodes.len() - 2);
+        let t = x - below as f64;
+        let [low, high] = [self.nodes[below], self.nodes[below + 1]];
+        let [a, b, r] = std::array::from_fn(|k| (1.0 - t) * low[k] + t * high[k]);
+        (Ltc { a, b }, r)
+    }
+
+    /// The lobe of `wi`, its albedo, and `wo` in its frame, unless one is below the horizon or nothing is scattered.
+    fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(Ltc, f64, DVec3)> {
+        let (mu_i, mu_o) = (cosine(wi), cosine(wo));
+        if mu_i < 0.0 || mu_o <= 0.0 {
+            return None;
+        }
+        let (ltc, r) = self.lobe(mu_i);
+        (ltc.a > 0.0 && r > 0.0).then(|| (ltc, r, AzimuthFrame::of(wi).local(wo)))
+    }
+}
+
+impl Bsdf for LtcSheen {
+    fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64 {
+        self.meeting(wi, wo).map_or(0.0, |(ltc, r, wo)| r * ltc.density(wo))
+    }
+
+    fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample> {
+        check_uniforms(uniforms);
+        let mu_i = cosine(wi);
+        if mu_i < 0.0 {
+            return None;
+        }
+        let (ltc, r) = self.lobe(mu_i);
+        (ltc.a > 0.0 && r > 0.0).then(|| {
+            let wo = ltc.sample(uniforms);
+            Sample { wo: AzimuthFrame::of(wi).outside(wo), weight: r, pdf: ltc.density(wo) }
+        })
+    }
+
+    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
+        self.meeting(wi, wo).map_or(0.0, |(ltc, _, wo)| ltc.density(wo))
+    }
+
+    /// r, linear between the table's nodes. 0 where a = 0: such a cell has no lobe.
+    fn albedo(&self, mu: f64) -> f64 {
+        check_mu(mu);
+        let (ltc, r) = self.lobe(mu);
+        if ltc.a > 0.0 { r } else { 0.0 }
+    }
+}

@@ -1,0 +1,100 @@
+//! How surfaces scatter light, for path tracers: evaluate, sample, density, albedo.
+//!
+//! | model | what it is | at its price |
+//! |---|---|---|
+//! | [`LtcSheen`] | the transformed cosine that renders in real time: a fit of the slab's lobe | sampled perfectly; reciprocal only nearly |
+//! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights within a bound |
+//!
+//! Sheens have no colour: `C_sheen` multiplies what they give. Models stand in a frame whose z is the normal, with `wi` and `wo`
+//! anywhere on the sphere: below the horizon there is nothing. One is made for each roughness, and shared by any number of threads.
+//!
+//! # Example
+//!
+//! What a path tracer does where a path meets the surface: sample the next direction, and weigh light that it looks for itself.
+//!
+//! ```
+//! use glam::DVec3;
+//! use velour::models::{Bsdf, Sample, SlabSheen};
+//! use velour::table::SlabTable;
+//!
+//! // Once for a material: takes a millisecond.
+//! let sheen = SlabSheen::new(&SlabTable::embedded(), 0.3);
+//! let c_sheen = DVec3::new(0.9, 0.8, 0.7);
+//!
+//! // wi points back along the path (to the viewer), in the frame in which z is the normal.
+//! let wi = DVec3::new(0.6, 0.48, 0.64);
+//! let mut throughput = DVec3::ONE;
+//! if let Some(Sample { wo, weight, .. }) = sheen.sample(wi, [0.2, 0.7]) {
+//!     throughput *= c_sheen * weight;
+//!     assert!(wo.z > 0.0 && throughput.max_element() < 2.0);
+//! }
+//!
+//! // A light in direction wo that was found with a density of its own, by multiple importance sampling (balance heuristic).
+//! let (wo, light_density, radiance) = (DVec3::new(-0.8, 0.0, 0.6), 2.5, DVec3::ONE);
+//! let light = c_sheen * sheen.evaluate(wi, wo) * radiance / (light_density + sheen.pdf(wi, wo));
+//! assert!(light.min_element() > 0.0);
+//!
+//! // What is left for the layers below.
+//! let below = DVec3::ONE - c_sheen * sheen.albedo(wi.z);
+//! assert!(below.min_element() > 0.0);
+//! ```
+
+mod elevations;
+mod ltc_sheen;
+mod slab_sheen;
+
+pub use ltc_sheen::LtcSheen;
+pub use slab_sheen::{LEAST_ALPHA, SlabSheen};
+
+use glam::DVec3;
+
+/// How a surface scatters light, without colour.
+///
+/// Directions are unit to [`UNIT_TOLERANCE`], point away from the surface, and have the normal as z: others, NaN among them, are a
+/// mistake in the caller and panic with their value, as do uniform numbers and cosines outside their ranges.
+pub trait Bsdf {
+    /// f_r(wi, wo) times the cosine of `wo`, per steradian: times radiance from `wo`, integrated over `wo`, it is radiance to `wi`.
+    /// 0 where one of them is below the horizon, or `wo` on it.
+    fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64;
+
+    /// A direction from two uniform numbers in \[0, 1); none where nothing is scattered.
+    fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample>;
+
+    /// Density per steradian with which [`Self::sample`] finds `wo`; 0 where `wi` or `wo` is below the horizon, or `wo` on it.
+    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64;
+
+    /// The share in \[0, 1\] of light of cosine `mu` in \[0, 1\] that is scattered: the integral of [`Self::evaluate`] over `wo`.
+    fn albedo(&self, mu: f64) -> f64;
+}
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Unit, above the horizon.
+    pub wo: DVec3,
+    /// [`Bsdf::evaluate`] over `pdf`.
+    pub weight: f64,
+    /// Density of `wo` per steradian.
+    pub pdf: f64,
+}
+
+/// How far the square of a direction's length may be from 1: directions may come from `f32`.
+pub const UNIT_TOLERANCE: f64 = 1e-5;
+
+/// The cosine of a direction to the normal, at most 1.
+fn cosine(w: DVec3) -> f64 {
+    assert!((w.length_squared() - 1.0).abs() < UNIT_TOLERANCE, "a direction is unit: {w}");
+    w.z.min(1.0)
+}
+
+fn check_uniforms(uniforms: [f64; 2]) {
+    assert!(uniforms.iter().all(|u| (0.0..1.0).contains(u)), "uniform numbers are in [0, 1): {uniforms:?}");
+}
+
+fn check_alpha(alpha: f64) {
+    assert!((0.0..=1.0).contains(&alpha), "alpha is in [0, 1]: {alpha}");
+}
+
+fn check_mu(mu: f64) {
+    assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
+}
