@@ -6,8 +6,10 @@
 // mod fit;
 mod hostile_table;
 mod medium;
+mod models;
 // mod shipped_table;
 mod slab;
+mod slab_table;
 mod statistics;
 mod table;
 mod transport;
