@@ -105,7 +105,8 @@ impl Transport {
             let single = nodes().map(|node| self.slab.single_scattering_albedo(node.mu));
             self.albedo = rows(&layer.reflected).into_iter().zip(single).map(|(all, single)| all / single).collect();
             let unscattered = nodes().map(|node| self.slab.unscattered(node.mu));
-            let scattered = rows(&layer.transmitted).into_iter().zip(unscattered).map(|(all, direct)| all - direct);
+            let scattered =
+                rows(&layer.change).into_iter().zip(unscattered).map(|(change, direct)| 1.0 + change - direct);
             self.transmittance = scattered.collect();
         }
         let (slab, mesh) = (&self.slab, &self.mesh);
@@ -120,9 +121,9 @@ impl Transport {
         self.reflected.push(smooth::symmetric(mesh, ratio));
         self.transmitted.push(DMatrix::from_fn(n, n, |i, j| {
             let [one, other] = [i, j].map(|k| mesh.nodes[k]);
-            let direct = if i == j { slab.unscattered(one.mu) } else { 0.0 };
+            let scattered = if i == j { 1.0 - slab.unscattered(one.mu) } else { 0.0 };
             let single = rates.onwards[(i, j)] * slab.transmitted_once(one, other) * other.mu;
-            (layer.transmitted[(i, j)] - direct - single) * spread(j)
+            (layer.change[(i, j)] + scattered - single) * spread(j)
         }));
     }
 

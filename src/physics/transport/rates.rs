@@ -56,13 +56,15 @@ pub fn rates(medium: &Sggx, mesh: &Mesh, modes: usize) -> Vec<Rates> {
                 if distance < NEAR * (high - low) {
                     let mut products = [[0.0; PER_PANEL]; MOST_MODES];
                     let scale = NARROWEST * medium.sigma() * node.s.max(medium.sigma());
-                    for [from, to] in graded(low, high, angle, scale) {
+                    for ends in graded(low, high, angle, scale) {
+                        let [from, to] = ends.map(|end| mesh.coordinate(panel, end));
                         for (x, weight) in &sub_rule {
-                            let at = (from + to) / 2.0 + (to - from) / 2.0 * x;
+                            let x = (from + to) / 2.0 + (to - from) / 2.0 * x;
+                            let (at, slope) = mesh.angle(panel, x);
                             let elevation = Elevation::from_angle(at);
                             medium.kernel_modes(node, elevation, values);
-                            let weight = PI * (to - from) * weight * elevation.s;
-                            let lagrange = mesh.lagrange(panel, at);
+                            let weight = PI * (to - from) * weight * slope * elevation.s;
+                            let lagrange = mesh.lagrange(x);
                             for (product, value) in products.iter_mut().zip(&*values) {
                                 for (sum, polynomial) in product.iter_mut().zip(lagrange) {
                                     *sum += weight * value * polynomial;
