@@ -25,6 +25,11 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// A comparison or check fell short.
+    fn check(message: impl ToString) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
     /// Bad usage or bad input.
     fn input(message: impl ToString) -> Self {
         Self { code: 2, message: message.to_string() }
