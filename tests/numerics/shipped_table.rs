@@ -51,14 +51,15 @@ fn header_tells_how_it_was_made() {
 }
 
 /// The largest distance of a node's value from the middle of its two neighbours, along alpha or mu, over the nodes with
-/// alpha > 0 where all three have r above `least_r`.
-fn bumpiness(table: &LtcTable, least_r: f64, value: impl Fn([f64; 3]) -> f64) -> f64 {
+/// alpha > 0 where all three have r above `least_r`, and which are not below node `corner` in both axes.
+fn bumpiness(table: &LtcTable, least_r: f64, corner: usize, value: impl Fn([f64; 3]) -> f64) -> f64 {
     let mut largest = 0.0_f64;
     for k in 1..NODES {
         for middle in 2..NODES - 1 {
             let around = [middle - 1, middle, middle + 1];
             for cells in [around.map(|i| table.cell(i, k)), around.map(|j| table.cell(k, j))] {
-                if cells.iter().all(|[_, _, r]| *r > least_r) {
+                let outside = k >= corner || middle >= corner;
+                if outside && cells.iter().all(|[_, _, r]| *r > least_r) {
                     let [before, at, after] = cells.map(&value);
                     largest = largest.max((at - (before + after) / 2.0).abs());
                 }
@@ -68,19 +69,18 @@ fn bumpiness(table: &LtcTable, least_r: f64, value: impl Fn([f64; 3]) -> f64) ->
     largest
 }
 
-/// Largest [`bumpiness`] of ln(a), b, r where r > 1e-3. What there is of it is the lobe's own turn at (2/31, 2/31); noise is
-/// a tenth of that in ln(a) and r, and most of it in b, which hardly matters where the lobe is nearly round.
-const SMOOTH: [f64; 3] = [0.2, 0.03, 0.08];
+/// Largest [`bumpiness`] of ln(a), b, r where r > 1e-3: the lobe's own turn at (2/31, 2/31). The fit of r makes it uneven at the corner.
+const SMOOTH: [f64; 3] = [0.12, 0.025, 0.05];
+const CORNER_OF_R: usize = 5;
 
-/// The same for all nodes. At (1/31, 2/31) ln(a) bends sharply, where the lobe goes dark one node from the horizon; b has the
-/// noise of the dimmest lobes that are fitted, which darker nodes copy.
-const SMOOTH_IN_THE_DARK: [f64; 3] = [0.45, 0.05, 0.08];
+/// The same for all nodes. At (1/31, 2/31) ln(a) bends sharply, where the lobe goes dark one node from the horizon.
+const SMOOTH_IN_THE_DARK: [f64; 3] = [0.2, 0.025, 0.05];
 
 fn bumpinesses(table: &LtcTable, least_r: f64) -> [f64; 3] {
     [
-        bumpiness(table, least_r, |[a, _, _]| a.ln()),
-        bumpiness(table, least_r, |[_, b, _]| b),
-        bumpiness(table, least_r, |[_, _, r]| r),
+        bumpiness(table, least_r, 0, |[a, _, _]| a.ln()),
+        bumpiness(table, least_r, 0, |[_, b, _]| b),
+        bumpiness(table, least_r, CORNER_OF_R, |[_, _, r]| r),
     ]
 }
 
@@ -131,7 +131,8 @@ fn r_leaves_the_albedo_at_the_corner_alone() {
         let solution = solve(i);
         for j in 1..NODES {
             let (r, albedo) = (table.cell(i, j)[2], solution.albedo(j as f64 / 31.0));
-            assert!((r / albedo - 1.0).abs() < 0.03, "node ({i}, {j}): {r}, {albedo}");
+            // What the albedo's curvature between two nodes asks for.
+            assert!(albedo < 0.01 || (r / albedo - 1.0).abs() < 0.05, "node ({i}, {j}): {r}, {albedo}");
         }
     }
     let (r, albedo) = (table.cell(1, 0)[2], solve(1).albedo(0.0));
@@ -164,7 +165,8 @@ fn matrices_are_the_best_for_their_lobes() {
         let shipped = Ltc { a, b };
         let free = if mu == 1.0 { Free::OnlyA } else { Free::Both };
         let error = |ltc| squared_error(&shape, &lobes.hemisphere, ltc);
-        let least = error(fit(&shape, &lobes.hemisphere, Ltc { a: 0.3, b: -0.05 }, free));
+        let start = Ltc { a: 0.3, b: if mu == 1.0 { 0.0 } else { -0.05 } };
+        let least = error(fit(&shape, &lobes.hemisphere, start, free));
         assert!(error(shipped) < least * (1.0 + 1e-6), "node ({i}, {j}): {shipped:?} is not the best");
         let wrong = Ltc { a: a * 1.02, b };
         assert!(error(wrong) > least * (1.0 + 1e-6), "node ({i}, {j}): {wrong:?} passes");
