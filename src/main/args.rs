@@ -30,6 +30,8 @@ pub enum Command {
     Render(Render),
     /// Makes the sheen's table from nothing and prints its errors
     Fit(Fit),
+    /// Draws the table, its lobes and its errors, as .svg
+    Figures(Figures),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]
     Info,
@@ -50,6 +52,13 @@ pub struct Fit {
     /// Nodes along alpha and along mu
     #[arg(long, default_value_t = 32, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=128))]
     pub resolution: u16,
+}
+
+#[derive(Args)]
+pub struct Figures {
+    /// Folder for the pictures; made if it is not there
+    #[arg(short, long, default_value = "figures", value_name = "DIR")]
+    pub output: PathBuf,
 }
 
 #[cfg(test)]
