@@ -16,6 +16,7 @@
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
+//! | `figures` | the table, its lobes and its errors as pictures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
 //!
 //! # Example
@@ -52,6 +53,8 @@
 //!
 //! Local frame: z is the normal, x is `wi` projected on the surface. `a_from_b` names a transform, `p_world` a point.
 
+#[cfg(feature = "cli")]
+pub mod figures;
 pub mod fit;
 pub mod math;
 pub mod physics;

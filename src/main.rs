@@ -5,8 +5,12 @@ mod args;
 #[cfg(feature = "gpu")]
 #[path = "main/draw.rs"]
 mod draw;
+#[path = "main/figures.rs"]
+mod figures;
 #[path = "main/fit.rs"]
 mod fit;
+#[path = "main/output.rs"]
+mod output;
 #[cfg(feature = "gpu")]
 #[path = "main/render_args.rs"]
 mod render_args;
@@ -60,6 +64,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Some(Command::Info) => draw::info(),
         Some(Command::Fit(fit)) => fit::fit(&fit),
+        Some(Command::Figures(figures)) => figures::figures(&figures),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -30,6 +30,8 @@ pub enum Command {
     Render(Render),
     /// Makes the tables from nothing and prints their errors
     Fit(Fit),
+    /// Draws the table, its lobes and its errors, as .svg
+    Figures(Figures),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]
     Info,
@@ -62,6 +64,13 @@ pub struct Fit {
 pub enum Table {
     Sheen,
     Slab,
+}
+
+#[derive(Args)]
+pub struct Figures {
+    /// Folder for the pictures; made if it is not there
+    #[arg(short, long, default_value = "figures", value_name = "DIR")]
+    pub output: PathBuf,
 }
 
 #[cfg(test)]

@@ -1,15 +1,14 @@
 //! `velour fit`: the tables from nothing.
 
 use std::fmt::Display;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressStyle};
 use velour::fit;
-use velour::picture::{check_writable, write_atomically};
+use velour::picture::write_atomically;
 use velour::table::LtcTable;
 
 use crate::args::{Fit, Table};
+use crate::output::{self, with_progress};
 use crate::{Failure, say};
 
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
@@ -31,7 +30,7 @@ const ROUNDING: u32 = 1;
 
 fn sheen(arguments: &Fit) -> Result<(), Failure> {
     let paths = ["sheen_ltc.csv", "sheen_ltc.dds"].map(|name| arguments.output.join(name));
-    let found = prepare(arguments, &paths, |path| LtcTable::load(path).map_err(Failure::input))?;
+    let found = files(arguments, &paths, |path| LtcTable::load(path).map_err(Failure::input))?;
     let (table, report) = with_progress("sheen", |step| fit::sheen(arguments.resolution.into(), step));
     if arguments.check {
         return paths.iter().zip(found).try_for_each(|(path, found)| compared(path, found.half_steps(&table)));
@@ -44,18 +43,11 @@ fn sheen(arguments: &Fit) -> Result<(), Failure> {
 }
 
 /// What can fail comes before the work: with `--check` the files are read, else it is seen that they can be written.
-fn prepare<T>(
-    arguments: &Fit,
-    paths: &[PathBuf],
-    load: impl Fn(&Path) -> Result<T, Failure>,
-) -> Result<Vec<T>, Failure> {
+fn files<T>(arguments: &Fit, paths: &[PathBuf], load: impl Fn(&Path) -> Result<T, Failure>) -> Result<Vec<T>, Failure> {
     if arguments.check {
         return paths.iter().map(|path| load(path)).collect();
     }
-    let folder = &arguments.output;
-    let made = fs::create_dir_all(folder);
-    made.map_err(|error| Failure::input(format!("{}: the folder cannot be made ({error})", folder.display())))?;
-    paths.iter().try_for_each(|path| check_writable(path).map_err(Failure::input))?;
+    output::prepare(&arguments.output, paths)?;
     Ok(vec![])
 }
 
@@ -78,18 +70,4 @@ fn wrote(paths: &[PathBuf], report: impl Display) {
     say(report);
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
     say(format!("wrote {}", names.join(" and ")));
-}
-
-/// Does `work` under a bar that is drawn on a terminal only.
-fn with_progress<T>(name: &'static str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
-    let bar = ProgressBar::new(0).with_message(name);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps, {eta} left") {
-        bar.set_style(style);
-    }
-    let done = work(&|done, all| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    });
-    bar.finish_and_clear();
-    done
 }
