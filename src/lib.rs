@@ -10,13 +10,14 @@
 //! |---|---|---|
 //! | [`math`] | quadrature, sampling warps, frames: `f64`, no domain knowledge | |
 //! | [`table`] | the table of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
-//! | [`physics`] | the slab of fibres, stated and solved | |
-//! | [`fit`] | lobe to LTC, the grid, the error report | |
+//! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk | |
+//! | [`fit`] | lobe to LTC, r between the nodes, the error report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
+//! | `figures` | the table, its lobes and its errors as pictures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
 //!
 //! # Example
@@ -44,6 +45,8 @@
 //! | `mu` | cosine to the normal | \[0, 1\] | |
 //! | `phi` | azimuth around the normal, 0 towards `wi` | \[-pi, pi\] | |
 //! | `tau` | optical depth | \[0, infinity) | |
+//! | `K`, `K_m` | the kernel, extinction x phase function, and its azimuthal modes | \[0, infinity) | S; [`physics::modes`] |
+//! | lobe | f_r(wi, wo) mu_o: reflected radiance times cosine per unit of flux from `wi` | | Z |
 //! | `R`, `r` | albedo: the share of light that the layer sends back up; `r` is the table's column | \[0, 1\] | Z eq. 1 |
 //! | `a`, `b` | the table's columns of the inverse matrix | a >= 0 | Z section 2 |
 //! | `m_inv` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | | Z section 2, H |
@@ -53,6 +56,8 @@
 //!
 //! Local frame: z is the normal, x is `wi` projected on the surface. `a_from_b` names a transform, `p_world` a point.
 
+#[cfg(feature = "cli")]
+pub mod figures;
 pub mod fit;
 pub mod math;
 pub mod models;

@@ -5,8 +5,12 @@ mod args;
 #[cfg(feature = "gpu")]
 #[path = "main/draw.rs"]
 mod draw;
+#[path = "main/figures.rs"]
+mod figures;
 #[path = "main/fit.rs"]
 mod fit;
+#[path = "main/output.rs"]
+mod output;
 #[cfg(feature = "gpu")]
 #[path = "main/render_args.rs"]
 mod render_args;
@@ -25,6 +29,11 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// A comparison or check fell short.
+    fn check(message: impl ToString) -> Self {
+        Self { code: 1, message: message.to_string() }
+    }
+
     /// Bad usage or bad input.
     fn input(message: impl ToString) -> Self {
         Self { code: 2, message: message.to_string() }
@@ -55,6 +64,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Some(Command::Info) => draw::info(),
         Some(Command::Fit(fit)) => fit::fit(&fit),
+        Some(Command::Figures(figures)) => figures::figures(&figures),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -94,20 +94,29 @@ fn albedo_errors(table: &LtcTable, cells: usize, step: impl Fn() + Sync) -> Erro
     Errors::new(errors)
 }
 
+impl Report {
+    /// The errors of the lobe, of r at the cells' centres, and of r at the spread points, in words.
+    pub fn figures(&self) -> [String; 3] {
+        let Self { lobe, weighted, centres, spread, .. } = self;
+        let shape = format!(
+            "mean {:.4}, median {:.4}, max {:.4}, weighted by R {weighted:.4}",
+            lobe.mean, lobe.median, lobe.max
+        );
+        let albedo = |errors: &Errors| format!("mean {:.4}, max {:.4}", errors.mean, errors.max);
+        [shape, albedo(centres), albedo(spread)]
+    }
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { nodes, lobe, weighted, centres, spread, resolution } = self;
-        let cells = resolution - 1;
-        writeln!(
-            f,
-            "Relative L2 error of the lobe, {nodes} nodes with R > {DIM}: mean {:.4}, median {:.4}, max {:.4}, weighted by R {weighted:.4}.",
-            lobe.mean, lobe.median, lobe.max
-        )?;
+        let [shape, centres, spread] = self.figures();
+        let cells = self.resolution - 1;
         write!(
             f,
-            "Relative error of the interpolated r where R > {DIM}: at the {cells} x {cells} centres of its cells mean {:.4}, max {:.4};\n\
-             at those of {SPREAD} x {SPREAD} cells mean {:.4}, max {:.4}.",
-            centres.mean, centres.max, spread.mean, spread.max
+            "Relative L2 error of the lobe, {} nodes with R > {DIM}: {shape}.\n\
+             Relative error of the interpolated r where R > {DIM}: at the {cells} x {cells} centres of its cells {centres};\n\
+             at those of {SPREAD} x {SPREAD} cells {spread}.",
+            self.nodes
         )
     }
 }

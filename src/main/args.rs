@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 #[cfg(feature = "gpu")]
 use crate::render_args::Render;
@@ -28,8 +28,10 @@ pub enum Command {
     /// Renders a scene to a picture
     #[cfg(feature = "gpu")]
     Render(Render),
-    /// Makes the sheen's table from nothing and prints its errors
+    /// Makes the tables from nothing and prints their errors
     Fit(Fit),
+    /// Draws the table, its lobes and its errors, as .svg
+    Figures(Figures),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]
     Info,
@@ -44,12 +46,31 @@ pub struct View {
 
 #[derive(Args)]
 pub struct Fit {
-    /// Folder for sheen_ltc.csv and sheen_ltc.dds; made if it is not there
+    /// Folder of the tables; made if it is not there
     #[arg(short, long, default_value = "tables", value_name = "DIR")]
     pub output: PathBuf,
-    /// Nodes along alpha and along mu
+    /// Which table: sheen is sheen_ltc.csv and .dds, slab is sheen_slab.dds [default: all]
+    #[arg(long, value_enum, value_name = "sheen|slab")]
+    pub only: Option<Table>,
+    /// Nodes along alpha and along mu of the sheen's table
     #[arg(long, default_value_t = 32, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=128))]
     pub resolution: u16,
+    /// Writes nothing: compares the folder's tables with what would be written, to one half-float step
+    #[arg(long)]
+    pub check: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum, PartialEq)]
+pub enum Table {
+    Sheen,
+    Slab,
+}
+
+#[derive(Args)]
+pub struct Figures {
+    /// Folder for the pictures; made if it is not there
+    #[arg(short, long, default_value = "figures", value_name = "DIR")]
+    pub output: PathBuf,
 }
 
 #[cfg(test)]

@@ -65,15 +65,17 @@ impl Slab {
     ///
     /// The integral over t of exp(-A_i t) K / mu_i exp(-A_o (1 - t)); 0 where one of the cosines is 0.
     pub fn single_transmission(&self, wi: DVec3, wo: DVec3) -> f64 {
-        let [one, other] = [wi.z, -wo.z].map(Elevation::from_cosine);
-        if one.mu == 0.0 || other.mu == 0.0 {
+        let (mu_i, mu_o) = (wi.z, -wo.z);
+        assert!((0.0..=1.0).contains(&mu_i) && (0.0..=1.0).contains(&mu_o), "cosines {mu_i}, {mu_o} are in [0, 1]");
+        let [one, other] = [mu_i, mu_o].map(Elevation::from_cosine);
+        if mu_i == 0.0 || mu_o == 0.0 {
             return 0.0;
         }
         self.medium.kernel(wi, wo) * self.transmitted_once(one, other) * other.mu
     }
 
-    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o) for thickness 1
-    /// (and the attenuation's depths A for any). Infinite where both cosines are 0.
+    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o), where
+    /// the A of the denominator are per thickness. Infinite where both cosines are 0.
     pub fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
         let [here, there] = [one, other].map(|elevation| self.medium.extinction_at(elevation));
         let attenuated = -(-(here / one.mu + there / other.mu) * self.thickness).exp_m1();

@@ -22,6 +22,7 @@ mod slab_dds;
 pub use ltc::Ltc;
 pub use slab::{LEAST_SLAB_ALPHA, SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp, slab_alpha};
 
+use half::f16;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -118,6 +119,14 @@ impl LtcTable {
         self.cells[i * self.size[1] + j]
     }
 
+    /// The largest difference to `other` over all numbers, in steps from one half-float to the next; none where the sizes differ.
+    ///
+    /// One step is what rounding differently on another machine may leave.
+    pub fn half_steps(&self, other: &Self) -> Option<u32> {
+        let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
+        (self.size == other.size).then(|| pairs.map(|(one, other)| half_steps(*one, *other)).max().unwrap_or_default())
+    }
+
     /// `[a, b, r]` at `alpha` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
     pub fn lookup(&self, alpha: f64, mu: f64) -> [f64; 3] {
         assert!(!alpha.is_nan() && !mu.is_nan(), "lookup at alpha {alpha}, mu {mu}");
@@ -185,6 +194,16 @@ fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
 /// Where node `k` of `n` sits.
 pub fn node(k: usize, n: usize) -> f64 {
     k as f64 / (n - 1) as f64
+}
+
+/// How many half-floats `one` and `other` are apart once they are rounded to halves.
+fn half_steps(one: f64, other: f64) -> u32 {
+    // The bits of halves, their sign apart, ascend with their magnitude.
+    let place = |value: f64| {
+        let bits = i32::from(f16::from_f64(value).to_bits());
+        if bits & 0x8000 == 0 { bits } else { 0x8000 - bits }
+    };
+    place(one).abs_diff(place(other))
 }
 
 /// What is wrong with a cell `[a, b, r]`, if anything.

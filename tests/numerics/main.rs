@@ -3,11 +3,11 @@
 //! Statistical tests have fixed seeds. A chi-square test fails where its probability falls below `SIGNIFICANCE`, and a
 //! comparison of means where it is off by more than the stated number of standard errors.
 
-// mod fit;
+mod fit;
 mod hostile_table;
 mod medium;
 mod models;
-// mod shipped_table;
+mod shipped_table;
 mod slab;
 mod slab_table;
 mod statistics;

@@ -4,6 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::f64::consts::{FRAC_PI_2, PI};
 use velour::math::quadrature::gauss_legendre;
+use velour::physics::modes::Elevation;
 use velour::physics::sggx::Sggx;
 
 const SIGMAS: [f64; 4] = [1.0, 0.25, 0.04, 1.0 / (31.0 * 31.0)];
@@ -142,4 +143,71 @@ fn a_wrong_phase_function_is_told() {
             assert!(p < REJECTED, "sigma {sigma} taken for {}: p = {p:.1e}", wrong.sigma());
         }
     }
+}
+
+#[test]
+fn kernel_modes_are_the_kernels_fourier_integrals() {
+    for sigma in [1.0, 0.25, 0.04] {
+        let medium = Sggx::new(sigma);
+        for (mu, mu_before) in [(0.5, 0.2), (-0.4, 0.7), (0.3, 0.31), (0.0, 0.6), (1.0, 0.3)] {
+            let [one, other] = [mu, mu_before].map(Elevation::from_cosine);
+            let mut modes = [0.0; 6];
+            medium.kernel_modes(one, other, &mut modes);
+            // Periodic and analytic: equidistant azimuths converge geometrically.
+            let n = 20_000;
+            let azimuths = (0..n).map(|k| 2.0 * PI * f64::from(k) / f64::from(n));
+            let values: Vec<(f64, f64)> =
+                azimuths.map(|phi| (phi, medium.kernel(-direction(mu_before, 0.0), direction(mu, phi)))).collect();
+            for (m, mode) in modes.into_iter().enumerate() {
+                let integral =
+                    values.iter().map(|(phi, value)| value * (m as f64 * phi).cos()).sum::<f64>() / f64::from(n);
+                assert!((mode - integral).abs() < 1e-12 * modes[0], "sigma {sigma}, {mu}, {mu_before}: K_{m}");
+            }
+        }
+    }
+}
+
+#[test]
+fn mode_0_of_the_kernel_sums_to_the_extinction() {
+    for sigma in SIGMAS {
+        let medium = Sggx::new(sigma);
+        for mu in COSINES {
+            let node = Elevation::from_cosine(mu);
+            let edges = graded(-FRAC_PI_2, FRAC_PI_2, mu.asin(), 34);
+            let mut sum = 0.0;
+            for edge in edges.windows(2) {
+                for (angle, weight) in gauss_legendre(12, edge[0], edge[1]) {
+                    let mut mode = [0.0];
+                    medium.kernel_modes(node, Elevation::from_angle(angle), &mut mode);
+                    sum += 2.0 * PI * weight * angle.cos() * mode[0];
+                }
+            }
+            assert!((sum / medium.extinction(mu) - 1.0).abs() < 1e-9, "sigma {sigma}, mu {mu}: {sum}");
+        }
+    }
+}
+
+#[test]
+fn the_kernels_tail_keeps_its_digits() {
+    // Far from the peak K_0 is (a^2 + b^2 / 2) / (4 pi sigma k^2) up to a / k: as a difference of three terms it would be noise.
+    for sigma in [1e-3, 1e-4] {
+        for (mu, mu_before) in [(0.8, 0.1), (-0.2, 0.3), (1.0, 0.05)] {
+            let [one, other] = [mu, mu_before].map(Elevation::from_cosine);
+            let (a, b) = (1.0 - mu * mu_before, one.s * other.s);
+            let k = (1.0 - sigma * sigma) * (mu - mu_before).powi(2) / (2.0 * sigma * sigma);
+            let mut modes = [0.0; 2];
+            Sggx::new(sigma).kernel_modes(one, other, &mut modes);
+            let tail = (a * a + b * b / 2.0) / (4.0 * PI * sigma * k * k);
+            assert!((modes[0] / tail - 1.0).abs() < 4.0 * a / k, "sigma {sigma}: {:e}, {tail:e}", modes[0]);
+            assert!((modes[1] + a * b / (4.0 * PI * sigma * k * k)).abs() < 8.0 * a / k * tail, "sigma {sigma}: K_1");
+        }
+    }
+}
+
+#[test]
+fn along_one_elevation_the_kernel_is_the_same_for_every_azimuth() {
+    let node = Elevation::from_cosine(0.3);
+    let mut modes = [1.0; 3];
+    Sggx::new(0.04).kernel_modes(node, node, &mut modes);
+    assert_eq!(modes, [1.0 / (4.0 * PI * 0.04), 0.0, 0.0]);
 }

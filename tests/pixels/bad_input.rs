@@ -58,6 +58,8 @@ fn flags_out_of_range() {
         ("render", "required"),
         ("render scene.glb", "--output"),
         ("fit --resolution 1", "--resolution"),
+        ("figures -o scene.glb", "scene.glb: the folder cannot be made"),
+        ("figures -o", "--output"),
     ] {
         bench.refused(&mut bench.command(words), 2, hint);
     }

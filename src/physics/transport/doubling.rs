@@ -25,8 +25,8 @@ const LEAST: f64 = 1e-15;
 /// length; elsewhere minus what it passes on to the others), `gain` of light going back.
 pub struct Layer {
     pub reflected: DMatrix<f64>,
-    /// With what passes unscattered, on the diagonal.
-    pub transmitted: DMatrix<f64>,
+    /// T - 1: what light loses on its way through, exact also for layers so thin that T itself would round it away.
+    pub change: DMatrix<f64>,
 }
 
 impl Layer {
@@ -34,10 +34,9 @@ impl Layer {
         let largest = loss.diagonal().max();
         let doublings = (largest / THIN).log2().ceil().max(0.0) as i32;
         let mut layer = Self::thin(loss, gain, 0.5_f64.powi(doublings));
-        let n = loss.nrows();
-        let (mut one, mut two) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        let mut room = Room::new(loss.nrows());
         for _ in 0..doublings {
-            layer.double(&mut one, &mut two);
+            layer.double(&mut room);
         }
         layer
     }
@@ -52,35 +51,54 @@ impl Layer {
         let t3 = (-(loss * &t2) - &gain_2 * loss + &r2 * gain) / 3.0;
         let t4 = (-(loss * &t3) + &gain_2 * &t2 - &r2 * gain * loss + &r3 * gain) / 4.0;
         let h = thickness;
-        let mut transmitted = (t4 * h + t3) * h + t2;
-        transmitted = (transmitted * h - loss) * h;
-        for i in 0..loss.nrows() {
-            transmitted[(i, i)] += 1.0;
-        }
-        Self { reflected: (((r4 * h + r3) * h + r2) * h + gain) * h, transmitted }
+        Self { reflected: (((r4 * h + r3) * h + r2) * h + gain) * h, change: (((t4 * h + t3) * h + t2) * h - loss) * h }
     }
 
-    /// Puts the layer on another one like it. `one` and `two` are room to work in.
-    fn double(&mut self, one: &mut DMatrix<f64>, two: &mut DMatrix<f64>) {
-        let Self { reflected, transmitted } = self;
-        // The series of R R by squaring: X = (1 + D)(1 + D^2)(1 + D^4)... T.
-        let mut power = DMatrix::zeros(reflected.nrows(), reflected.ncols());
-        reflected.mul_to(reflected, &mut power);
-        let mut inner = transmitted.clone();
+    /// Puts the layer on another one like it. With T = 1 + t and (1 - R R)^-1 T = T + Z, the rules above read
+    /// t' = 2 t + t t + T Z and R' = R + T R (T + Z).
+    fn double(&mut self, room: &mut Room) {
+        let Self { reflected, change } = self;
+        let Room { through, inner, power, rest, spare } = room;
+        through.copy_from(change);
+        for i in 0..through.nrows() {
+            through[(i, i)] += 1.0;
+        }
+        // Z by squaring: T + Z = ... (1 + D^4)(1 + D^2)(1 + D) T with D = R R.
+        reflected.mul_to(reflected, power);
+        rest.fill(0.0);
+        inner.copy_from(through);
         loop {
-            one.copy_from(&inner);
-            inner.gemm(1.0, &power, one, 1.0);
-            let norm = row_norm(&power);
+            rest.gemm(1.0, power, inner, 1.0);
+            through.add_to(rest, inner);
+            let norm = row_norm(power);
             if norm * norm < LEAST {
                 break;
             }
-            power.mul_to(&power, two);
-            std::mem::swap(&mut power, two);
+            power.mul_to(power, spare);
+            std::mem::swap(power, spare);
         }
-        reflected.mul_to(&inner, one);
-        reflected.gemm(1.0, transmitted, one, 1.0);
-        transmitted.mul_to(&inner, one);
-        std::mem::swap(transmitted, one);
+        reflected.mul_to(inner, spare);
+        reflected.gemm(1.0, through, spare, 1.0);
+        spare.copy_from(change);
+        spare.gemm(1.0, change, change, 2.0);
+        spare.gemm(1.0, through, rest, 1.0);
+        std::mem::swap(change, spare);
+    }
+}
+
+/// Matrices to work in.
+struct Room {
+    through: DMatrix<f64>,
+    inner: DMatrix<f64>,
+    power: DMatrix<f64>,
+    rest: DMatrix<f64>,
+    spare: DMatrix<f64>,
+}
+
+impl Room {
+    fn new(n: usize) -> Self {
+        let zero = || DMatrix::zeros(n, n);
+        Self { through: zero(), inner: zero(), power: zero(), rest: zero(), spare: zero() }
     }
 }
 

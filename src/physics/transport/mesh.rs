@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 pub const PER_PANEL: usize = 8;
 
 /// Widest panel, in radians.
-const WIDEST: f64 = 0.4;
+const WIDEST: f64 = 0.25;
 
 /// How much wider the next panel is where panels grow.
 const GROWTH: f64 = 2.0;
@@ -18,7 +18,10 @@ const GROWTH: f64 = 2.0;
 const GRAZING_REACH: f64 = 3.0;
 
 /// The panel at the horizon is split so often towards it, in ratios of 4: functions behave as mu ln(mu) there.
-const HORIZON_SPLITS: i32 = 3;
+const HORIZON_SPLITS: i32 = 2;
+
+/// In the last of these, polynomials are of this root of the angle, in which mu ln(mu) is smoother.
+const HORIZON_POWER: i32 = 3;
 
 /// Gauss nodes and weights over \[-1, 1\], and the weights of the barycentric interpolation formula on them.
 #[derive(Clone, Debug)]
@@ -81,13 +84,12 @@ impl Mesh {
         let rule = Rule::new();
         let mut mesh = Self { rule, edges, angles: vec![], nodes: vec![], weights: vec![], first_wide: 0 };
         for panel in 0..mesh.panels() {
-            let [low, high] = mesh.panel(panel);
-            for (x, weight) in mesh.rule.points.iter().zip(mesh.rule.weights) {
-                let angle = (low + high) / 2.0 + (high - low) / 2.0 * x;
+            for (x, weight) in mesh.rule.points.into_iter().zip(mesh.rule.weights) {
+                let (angle, slope) = mesh.angle(panel, x);
                 let node = Elevation::from_angle(angle);
                 mesh.angles.push(angle);
                 mesh.nodes.push(node);
-                mesh.weights.push(weight * (high - low) / 2.0 * node.s);
+                mesh.weights.push(weight * slope * node.s);
             }
         }
         mesh.first_wide = mesh.angles.partition_point(|angle| *angle < wide_from);
@@ -107,17 +109,34 @@ impl Mesh {
         [self.edges[panel], self.edges[panel + 1]]
     }
 
-    /// The panel's Lagrange polynomials at an angle in it.
-    pub fn lagrange(&self, panel: usize, angle: f64) -> [f64; PER_PANEL] {
+    /// The angle at the coordinate `x` in \[-1, 1\] of a panel, and its derivative by `x`.
+    pub fn angle(&self, panel: usize, x: f64) -> (f64, f64) {
         let [low, high] = self.panel(panel);
-        self.rule.lagrange(((2.0 * angle - low - high) / (high - low)).clamp(-1.0, 1.0))
+        if panel > 0 {
+            return ((low + high) / 2.0 + (high - low) / 2.0 * x, (high - low) / 2.0);
+        }
+        let share = (1.0 + x) / 2.0;
+        (high * share.powi(HORIZON_POWER), high * f64::from(HORIZON_POWER) * share.powi(HORIZON_POWER - 1) / 2.0)
+    }
+
+    /// The coordinate in \[-1, 1\] of an angle in a panel.
+    pub fn coordinate(&self, panel: usize, angle: f64) -> f64 {
+        let [low, high] = self.panel(panel);
+        let share = (angle - low) / (high - low);
+        let share = if panel > 0 { share } else { share.max(0.0).powf(1.0 / f64::from(HORIZON_POWER)) };
+        (2.0 * share - 1.0).clamp(-1.0, 1.0)
+    }
+
+    /// The panel's Lagrange polynomials at a coordinate.
+    pub fn lagrange(&self, x: f64) -> [f64; PER_PANEL] {
+        self.rule.lagrange(x)
     }
 
     /// How a function of the elevation is had at the cosine `mu` in \[0, 1\].
     pub fn stencil(&self, mu: f64) -> Stencil {
         let angle = mu.asin();
         let panel = self.edges.partition_point(|edge| *edge <= angle).clamp(1, self.panels()) - 1;
-        Stencil { first: panel * PER_PANEL, weights: self.lagrange(panel, angle) }
+        Stencil { first: panel * PER_PANEL, weights: self.lagrange(self.coordinate(panel, angle)) }
     }
 }
 
@@ -138,8 +157,8 @@ fn edges(sigma: f64, refinement: f64) -> (Vec<f64>, f64) {
     edges.extend((0..=HORIZON_SPLITS).rev().map(|split| width * 0.25_f64.powi(split)));
     // Near the normal extinction changes where s = sigma: panels narrow down to that.
     let mut top = vec![FRAC_PI_2];
-    let mut from_top = 2.0 * sigma;
-    while from_top < WIDEST / 2.0 {
+    let mut from_top = sigma;
+    while from_top < WIDEST {
         top.push(FRAC_PI_2 - from_top);
         from_top *= GROWTH * GROWTH;
     }

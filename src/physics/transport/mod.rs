@@ -12,10 +12,12 @@
 //! 1. **Azimuth.** The kernel's Fourier modes K_m are known in closed form ([`modes`](super::modes)); each mode of L has an equation of
 //!    its own, with 2 pi K_m(mu, mu') in place of K. Mode 0 alone carries energy.
 //! 2. **Elevation.** `mesh` has panels of Gauss nodes, narrow near the horizon where light scatters often. `rates` turns the
-//!    integral over mu' into matrices. The kernel is a peak, about sigma wide, on a tail; where panels are wider than that, quadrature
-//!    at nodes would miss it, so that near a node polynomials are integrated against the kernel itself (product integration). Light
-//!    that the peak leaves at its node is then no scattering at all: what a node loses is the sum of what it sends elsewhere. For mode 0
-//!    that sum is formed as such, so that energy is kept to round-off.
+//!    integral over mu' into matrices, `onwards` P for mu' on the same side of the horizon and `back` Q for the other. The kernel is a
+//!    peak, about sigma wide, on a tail; where panels are wider than that, quadrature at nodes (Nystrom's method) would miss it, so that
+//!    near a node polynomials are integrated against the kernel itself (product integration). Per unit of depth a node then loses
+//!    sigma_t / mu and gets back P_ii / mu, passes on P_ij / mu and throws back Q_ij / mu. Nothing is absorbed: for mode 0 all rates of a
+//!    node sum to sigma_t, and the difference (sigma_t - P_ii) / mu is formed as the sum of all others, mostly positive terms. So light
+//!    that the peak leaves at its node counts as no scattering at all, and energy is kept to round-off.
 //! 3. **Depth.** `doubling` builds the layer from thin ones, in a form in which nothing cancels.
 //! 4. **What the matrices say.** Entry (i, j) of R is exact in mu_i and an average over mu_o against the polynomial of node j: sums over j
 //!    are accurate to the mesh's order, and with them the albedo. Where panels are wider than the kernel's peak, single entries are
@@ -105,7 +107,8 @@ impl Transport {
             let single = nodes().map(|node| self.slab.single_scattering_albedo(node.mu));
             self.albedo = rows(&layer.reflected).into_iter().zip(single).map(|(all, single)| all / single).collect();
             let unscattered = nodes().map(|node| self.slab.unscattered(node.mu));
-            let scattered = rows(&layer.transmitted).into_iter().zip(unscattered).map(|(all, direct)| all - direct);
+            let scattered =
+                rows(&layer.change).into_iter().zip(unscattered).map(|(change, direct)| 1.0 + change - direct);
             self.transmittance = scattered.collect();
         }
         let (slab, mesh) = (&self.slab, &self.mesh);
@@ -120,9 +123,9 @@ impl Transport {
         self.reflected.push(smooth::symmetric(mesh, ratio));
         self.transmitted.push(DMatrix::from_fn(n, n, |i, j| {
             let [one, other] = [i, j].map(|k| mesh.nodes[k]);
-            let direct = if i == j { slab.unscattered(one.mu) } else { 0.0 };
+            let scattered = if i == j { 1.0 - slab.unscattered(one.mu) } else { 0.0 };
             let single = rates.onwards[(i, j)] * slab.transmitted_once(one, other) * other.mu;
-            (layer.transmitted[(i, j)] - direct - single) * spread(j)
+            (layer.change[(i, j)] + scattered - single) * spread(j)
         }));
     }
 

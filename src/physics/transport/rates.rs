@@ -38,49 +38,18 @@ pub struct Rates {
 /// down geometrically to the node (product integration; Atkinson 1997, section 4.2).
 pub fn rates(medium: &Sggx, mesh: &Mesh, modes: usize) -> Vec<Rates> {
     assert!((1..=MOST_MODES).contains(&modes), "modes are in [1, {MOST_MODES}]: {modes}");
-    let n = mesh.len();
+    let (n, integrals) = (mesh.len(), Integrals { medium, mesh, modes, rule: gauss_legendre(SUB_NODES, -1.0, 1.0) });
     let zero = || DMatrix::zeros(n, n);
     let mut rates: Vec<Rates> = (0..modes).map(|_| Rates { onwards: zero(), back: zero() }).collect();
-    let sub_rule = gauss_legendre(SUB_NODES, -1.0, 1.0);
-    let mut values = [0.0; MOST_MODES];
-    let values = &mut values[..modes];
     for i in 0..n {
-        for side in [1.0, -1.0] {
+        for panel in 0..mesh.panels() {
             // Mirroring the node instead of the panel is the same.
-            let angle = side * mesh.angles[i];
-            let node = Elevation::from_angle(angle);
-            for panel in 0..mesh.panels() {
-                let [low, high] = mesh.panel(panel);
-                let distance = f64::max(low - angle, angle - high);
-                let columns = panel * PER_PANEL..(panel + 1) * PER_PANEL;
-                if distance < NEAR * (high - low) {
-                    let mut products = [[0.0; PER_PANEL]; MOST_MODES];
-                    let scale = NARROWEST * medium.sigma() * node.s.max(medium.sigma());
-                    for [from, to] in graded(low, high, angle, scale) {
-                        for (x, weight) in &sub_rule {
-                            let at = (from + to) / 2.0 + (to - from) / 2.0 * x;
-                            let elevation = Elevation::from_angle(at);
-                            medium.kernel_modes(node, elevation, values);
-                            let weight = PI * (to - from) * weight * elevation.s;
-                            let lagrange = mesh.lagrange(panel, at);
-                            for (product, value) in products.iter_mut().zip(&*values) {
-                                for (sum, polynomial) in product.iter_mut().zip(lagrange) {
-                                    *sum += weight * value * polynomial;
-                                }
-                            }
-                        }
-                    }
-                    for (rates, product) in rates.iter_mut().zip(products) {
-                        let matrix = rates.side(side);
-                        columns.clone().zip(product).for_each(|(j, value)| matrix[(i, j)] = value);
-                    }
-                } else {
-                    for j in columns {
-                        medium.kernel_modes(node, mesh.nodes[j], values);
-                        for (rates, value) in rates.iter_mut().zip(&*values) {
-                            rates.side(side)[(i, j)] = 2.0 * PI * mesh.weights[j] * value;
-                        }
-                    }
+            let [onwards, back] = [1.0, -1.0].map(|side| integrals.of(side * mesh.angles[i], panel));
+            for (mode, rates) in rates.iter_mut().enumerate() {
+                for k in 0..PER_PANEL {
+                    let at = (i, panel * PER_PANEL + k);
+                    rates.onwards[at] = onwards[mode][k];
+                    rates.back[at] = back[mode][k];
                 }
             }
         }
@@ -88,9 +57,58 @@ pub fn rates(medium: &Sggx, mesh: &Mesh, modes: usize) -> Vec<Rates> {
     rates
 }
 
-impl Rates {
-    fn side(&mut self, side: f64) -> &mut DMatrix<f64> {
-        if side > 0.0 { &mut self.onwards } else { &mut self.back }
+/// For each mode, the integrals of the kernel from one node against the polynomials of a panel.
+type Products = [[f64; PER_PANEL]; MOST_MODES];
+
+struct Integrals<'a> {
+    medium: &'a Sggx,
+    mesh: &'a Mesh,
+    modes: usize,
+    rule: Vec<(f64, f64)>,
+}
+
+impl Integrals<'_> {
+    fn of(&self, angle: f64, panel: usize) -> Products {
+        let [low, high] = self.mesh.panel(panel);
+        let distance = f64::max(low - angle, angle - high);
+        if distance < NEAR * (high - low) { self.near(angle, panel) } else { self.far(angle, panel) }
+    }
+
+    /// The kernel's value at the panel's nodes.
+    fn far(&self, angle: f64, panel: usize) -> Products {
+        let mut products = [[0.0; PER_PANEL]; MOST_MODES];
+        let (node, mut values) = (Elevation::from_angle(angle), [0.0; MOST_MODES]);
+        for k in 0..PER_PANEL {
+            let j = panel * PER_PANEL + k;
+            self.medium.kernel_modes(node, self.mesh.nodes[j], &mut values[..self.modes]);
+            let weight = 2.0 * PI * self.mesh.weights[j];
+            products.iter_mut().zip(values).for_each(|(product, value)| product[k] = weight * value);
+        }
+        products
+    }
+
+    /// Graded towards the node's angle, in or beside the panel.
+    fn near(&self, angle: f64, panel: usize) -> Products {
+        let Self { medium, mesh, .. } = self;
+        let mut products = [[0.0; PER_PANEL]; MOST_MODES];
+        let (node, mut values) = (Elevation::from_angle(angle), [0.0; MOST_MODES]);
+        let [low, high] = mesh.panel(panel);
+        let scale = NARROWEST * medium.sigma() * node.s.max(medium.sigma());
+        for ends in graded(low, high, angle, scale) {
+            let [from, to] = ends.map(|end| mesh.coordinate(panel, end));
+            for (x, weight) in &self.rule {
+                let x = (from + to) / 2.0 + (to - from) / 2.0 * x;
+                let (at, slope) = mesh.angle(panel, x);
+                let elevation = Elevation::from_angle(at);
+                medium.kernel_modes(node, elevation, &mut values[..self.modes]);
+                let weight = PI * (to - from) * weight * slope * elevation.s;
+                let lagrange = mesh.lagrange(x);
+                for (product, value) in products.iter_mut().zip(&values[..self.modes]) {
+                    product.iter_mut().zip(lagrange).for_each(|(sum, l)| *sum += weight * value * l);
+                }
+            }
+        }
+        products
     }
 }
 

@@ -1,0 +1,62 @@
+//! Pictures of the table and of how right it is, as SVG.
+//!
+//! - [`table_planes`]: the table's columns a, b, r over (alpha, mu);
+//! - [`lobes`]: the slab's lobes in the plane of incidence, solved, walked and fitted;
+//! - [`errors`]: the distance of the table's lobes, and of its interpolated r, from the solution.
+//!
+//! Each is the same on any number of threads, and says in its caption what it was made with.
+
+mod canvas;
+mod color;
+mod errors;
+mod field;
+mod lobes;
+#[cfg(test)]
+mod parsed;
+mod planes;
+mod polar;
+
+pub use errors::errors;
+pub use lobes::lobes;
+pub use planes::table_planes;
+
+use crate::table::LtcTable;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Its file's name.
+    pub name: &'static str,
+    /// Its file.
+    pub svg: String,
+    /// What it shows and with which settings, as it stands below it.
+    pub caption: String,
+}
+
+/// Names of the figures that [`all`] makes, in order.
+pub const NAMES: [&str; 6] =
+    [planes::NAMES[0], planes::NAMES[1], planes::NAMES[2], lobes::NAME, errors::NAMES[0], errors::NAMES[1]];
+
+/// All figures of `table`. Takes some seconds; `progress` is told (done, all) steps, from any of the working threads.
+pub fn all(table: &LtcTable, progress: impl Fn(usize, usize) + Sync) -> Vec<Figure> {
+    let (done, all) = (AtomicUsize::new(0), lobes::steps() + errors::steps());
+    progress(0, all);
+    let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+    let mut figures = table_planes(table);
+    figures.push(lobes(table, step));
+    figures.extend(errors(table, step));
+    figures
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_figures() {
+        let planes: Vec<&str> = table_planes(&LtcTable::embedded()).iter().map(|figure| figure.name).collect();
+        assert_eq!(NAMES[..3], planes);
+        assert_eq!(NAMES[3..], ["lobes.svg", "error_lobe.svg", "error_r.svg"]);
+    }
+}
