@@ -71,7 +71,7 @@ pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
     let warp = SlabWarp::new(alpha);
     let points = (SLAB_SIDE - 1) * PER_CELL;
     let at: Vec<f64> = (0..points).map(|k| (k as f64 + 0.5) / points as f64).collect();
-    let mus: Vec<f64> = at.iter().map(|&t| warp.mu(SlabWarp::root_from_coordinate(t))).collect();
+    let mus: Vec<f64> = at.iter().map(|&t| warp.mu(SlabWarp::root_from_place(t))).collect();
     let mut values = [(); MODES].map(|()| DMatrix::zeros(points, points));
     for i in 0..points {
         for j in 0..=i {
@@ -137,8 +137,7 @@ fn errors(table: &SlabTable, alpha: f64) -> Vec<[f64; 2]> {
     let slice = table.slice(alpha);
     let hemisphere = Hemisphere::new(truth.cosines());
     let cell = |k: usize| (k * (SLAB_SIDE - 2) / (REPORT_MUS - 1)) as f64 + 0.5;
-    let mus =
-        (0..REPORT_MUS).map(|k| slice.warp().mu(SlabWarp::root_from_coordinate(cell(k) / (SLAB_SIDE - 1) as f64)));
+    let mus = (0..REPORT_MUS).map(|k| slice.warp().mu(SlabWarp::root_from_place(cell(k) / (SLAB_SIDE - 1) as f64)));
     mus.filter(|mu| truth.albedo(*mu) > DIM)
         .map(|mu| {
             let wi = DVec3::new(sine(mu), 0.0, mu);

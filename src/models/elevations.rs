@@ -12,6 +12,9 @@ const NODES: usize = 63;
 /// Rows, at the places k / (n - 1).
 const ROWS: usize = 32;
 
+/// Least density over y, over its mean: in the far tails of fuzz, lobes between nodes are many times what these say.
+const LEAST: f64 = 1e-3;
+
 /// Parts of \[0, 1) for which a row remembers where to search.
 const GUIDES: usize = 64;
 
@@ -33,21 +36,19 @@ pub struct Elevations {
 impl Elevations {
     /// From a density over y given the roots of `wi` and `wo`, above 0 somewhere and of any scale.
     pub fn new(density: impl Fn(f64, f64) -> f64) -> Self {
-        let root = |k: usize, n: usize| SlabWarp::root_from_coordinate(k as f64 / (n - 1) as f64);
+        let root = |k: usize, n: usize| SlabWarp::root_from_place(k as f64 / (n - 1) as f64);
         let roots: [f64; NODES] = std::array::from_fn(|k| root(k, NODES));
         let inverse_widths = std::array::from_fn(|k| 1.0 / (roots[k + 1] - roots[k]));
         let (mut densities, mut cumulated, mut guides) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..ROWS {
-            let values: Vec<f64> = roots.iter().map(|&other| density(root(row, ROWS), other)).collect();
-            let mut sum = 0.0;
-            let mut sums = vec![0.0];
-            for k in 1..NODES {
-                sum += (roots[k] - roots[k - 1]) * (values[k] + values[k - 1]) / 2.0;
-                sums.push(sum);
-            }
-            assert!(sum > 0.0 && f64::is_finite(sum), "row {row} of a density has the integral {sum}");
-            densities.extend(values.iter().map(|value| value / sum));
-            sums.iter_mut().for_each(|value| *value /= sum);
+            let mut values: Vec<f64> = roots.iter().map(|&other| density(root(row, ROWS), other)).collect();
+            let whole = integrals(&roots, &values)[NODES - 1];
+            assert!(whole > 0.0 && whole.is_finite(), "row {row} of a density has the integral {whole}");
+            values.iter_mut().for_each(|value| *value = value.max(LEAST * whole));
+            let mut sums = integrals(&roots, &values);
+            let whole = sums[NODES - 1];
+            sums.iter_mut().for_each(|sum| *sum /= whole);
+            densities.extend(values.iter().map(|value| value / whole));
             guides.push(std::array::from_fn(|k| last_at_most(&sums, k as f64 / GUIDES as f64) as u8));
             cumulated.extend(sums);
         }
@@ -55,6 +56,7 @@ impl Elevations {
     }
 
     /// The density over y at `root`, whose place along the axis is `at`, for `wi` at the place `from`.
+    #[inline]
     pub fn density(&self, from: f64, at: f64, root: f64) -> f64 {
         let (row, share) = row(from);
         let k = ((at * (NODES - 1) as f64) as usize).min(NODES - 2);
@@ -67,6 +69,7 @@ impl Elevations {
     }
 
     /// A root of that density from a uniform number in \[0, 1).
+    #[inline]
     pub fn sample(&self, from: f64, uniform: f64) -> f64 {
         let (row, share) = row(from);
         // What is left of the number after the choice of a row is uniform again.
@@ -87,12 +90,24 @@ impl Elevations {
     }
 }
 
+/// The integrals from 0 to each node of what is linear between values there.
+fn integrals(roots: &[f64], values: &[f64]) -> Vec<f64> {
+    let part = |k: usize| if k == 0 { 0.0 } else { (roots[k] - roots[k - 1]) * (values[k] + values[k - 1]) / 2.0 };
+    let mut sum = 0.0;
+    let mut next = |k: usize| {
+        sum += part(k);
+        sum
+    };
+    (0..values.len()).map(&mut next).collect()
+}
+
 /// The last node but one, or an earlier one, whose integral is at most `value`.
 fn last_at_most(sums: &[f64], value: f64) -> usize {
     sums.partition_point(|sum| *sum <= value).clamp(1, NODES - 1) - 1
 }
 
 /// The row at or below a place in \[0, 1\], and the next one's share.
+#[inline]
 fn row(place: f64) -> (usize, f64) {
     let x = place * (ROWS - 1) as f64;
     let row = (x as usize).min(ROWS - 2);

@@ -29,8 +29,8 @@ impl LtcSheen {
         let below = (x as usize).min(self.nodes.len() - 2);
         let t = x - below as f64;
         let [low, high] = [self.nodes[below], self.nodes[below + 1]];
-        let [a, b, r] = std::array::from_fn(|k| (1.0 - t) * low[k] + t * high[k]);
-        (Ltc { a, b }, r)
+        let between = |k: usize| (1.0 - t) * low[k] + t * high[k];
+        (Ltc { a: between(0), b: between(1) }, between(2))
     }
 
     /// The lobe of `wi`, its albedo, and `wo` in its frame, unless one is below the horizon or nothing is scattered.

@@ -3,7 +3,7 @@
 //! | model | what it is | at its price |
 //! |---|---|---|
 //! | [`LtcSheen`] | the transformed cosine that renders in real time: a fit of the slab's lobe | sampled perfectly; reciprocal only nearly |
-//! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights within a bound |
+//! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights to 1.7 R |
 //!
 //! Sheens have no colour: `C_sheen` multiplies what they give. Models stand in a frame whose z is the normal, with `wi` and `wo`
 //! anywhere on the sphere: below the horizon there is nothing. One is made for each roughness, and shared by any number of threads.
@@ -82,11 +82,13 @@ pub struct Sample {
 pub const UNIT_TOLERANCE: f64 = 1e-5;
 
 /// The cosine of a direction to the normal, at most 1.
+#[inline]
 fn cosine(w: DVec3) -> f64 {
     assert!((w.length_squared() - 1.0).abs() < UNIT_TOLERANCE, "a direction is unit: {w}");
     w.z.min(1.0)
 }
 
+#[inline]
 fn check_uniforms(uniforms: [f64; 2]) {
     assert!(uniforms.iter().all(|u| (0.0..1.0).contains(u)), "uniform numbers are in [0, 1): {uniforms:?}");
 }

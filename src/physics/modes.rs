@@ -54,11 +54,13 @@ impl Elevation {
     }
 
     /// From the cosine to the normal in \[-1, 1\].
+    #[inline]
     pub fn from_cosine(mu: f64) -> Self {
         Self { mu, s: sine(mu) }
     }
 
     /// The mirrored one on the other side of the horizon.
+    #[inline]
     pub fn opposite(self) -> Self {
         Self { mu: -self.mu, s: self.s }
     }
@@ -66,6 +68,7 @@ impl Elevation {
 
 impl Sggx {
     /// Extinction along an elevation, as [`Sggx::extinction`].
+    #[inline]
     pub fn extinction_at(&self, elevation: Elevation) -> f64 {
         let along = self.sigma() * elevation.mu;
         (along * along + elevation.s * elevation.s).sqrt()
@@ -73,6 +76,7 @@ impl Sggx {
 
     /// The first modes `K_0`, `K_1`, ... of the kernel between two propagation directions, one for each place in `modes`; per length
     /// and steradian. Symmetric in its arguments. `K_0` to a relative 3e-15, the others to 1e-13 of `K_0`.
+    #[inline]
     pub fn kernel_modes(&self, one: Elevation, other: Elevation, modes: &mut [f64]) {
         let sigma = self.sigma();
         let isotropic = 1.0 / (4.0 * PI * sigma);

@@ -19,6 +19,7 @@ impl Sggx {
     }
 
     /// The fibres' cross-section seen along their axis.
+    #[inline]
     pub fn sigma(&self) -> f64 {
         self.sigma
     }
@@ -40,6 +41,7 @@ impl Sggx {
     }
 
     /// [`Self::flake_density`] from the square of `m_z`.
+    #[inline]
     fn flake_density_at_square(&self, square: f64) -> f64 {
         let sigma_square = self.sigma * self.sigma;
         // m^T S^-1 m = (sigma^2 + (1 - sigma^2) m_z^2) / sigma^2 up to the order of its terms; no cancellation.
@@ -51,6 +53,7 @@ impl Sggx {
     ///
     /// `back` points back to where the light came from, `out` along where it goes, both unit; wh is their half vector.
     /// 1 / (4 pi sigma) where `out` = -`back` (straight on), the limit along directions that keep their elevation.
+    #[inline]
     pub fn kernel(&self, back: DVec3, out: DVec3) -> f64 {
         let sum = back + out;
         let length_square = sum.length_squared();

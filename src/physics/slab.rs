@@ -2,6 +2,7 @@
 
 use super::modes::Elevation;
 use super::sggx::Sggx;
+use crate::math::one_minus_exp;
 use crate::math::quadrature::gauss_legendre;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -31,6 +32,7 @@ impl Slab {
         self.thickness
     }
 
+    #[inline]
     pub fn medium(&self) -> &Sggx {
         &self.medium
     }
@@ -76,9 +78,10 @@ impl Slab {
 
     /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o), where
     /// the A of the denominator are per thickness. Infinite where both cosines are 0.
+    #[inline]
     pub fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
-        let [here, there] = [one, other].map(|elevation| self.medium.extinction_at(elevation));
-        let attenuated = -(-(here / one.mu + there / other.mu) * self.thickness).exp_m1();
+        let (here, there) = (self.medium.extinction_at(one), self.medium.extinction_at(other));
+        let attenuated = one_minus_exp((here / one.mu + there / other.mu) * self.thickness);
         attenuated / (here * other.mu + there * one.mu)
     }
 

@@ -117,7 +117,8 @@ impl SlabTable {
     /// What the table says of `alpha` in (0, 1\].
     ///
     /// Below the first node, .0094, values go on in a straight line: the lobe is off by 2% at .008, 6% at .0065, 13% at
-    /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still in units of the warped mu, and too dark.
+    /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still along the axis of mu, so that lobes fade too soon: by
+    /// 42% at .004, 85% at .002.
     pub fn slice(&self, alpha: f64) -> SlabSlice {
         let warp = SlabWarp::new(alpha);
         let x = alpha_texel(alpha.max(LEAST_SLAB_ALPHA));
@@ -135,38 +136,42 @@ impl SlabTable {
 }
 
 impl SlabSlice {
+    #[inline]
     pub fn warp(&self) -> &SlabWarp {
         &self.warp
     }
 
     /// The modes at cosines in \[0, 1\]; exchanging them changes nothing.
     pub fn lookup(&self, mu_i: f64, mu_o: f64) -> SlabModes {
-        self.at([mu_i, mu_o].map(|mu| SlabWarp::coordinate(self.warp.root(mu))))
+        self.at([mu_i, mu_o].map(|mu| self.warp.place(mu)))
     }
 
     /// The modes at two places along the axis, in \[0, 1\].
+    #[inline]
     pub fn at(&self, places: [f64; 2]) -> SlabModes {
         let cell = |place: f64| {
             let x = place * (SLAB_SIDE - 1) as f64;
             let below = (x as usize).min(SLAB_SIDE - 2);
             (below, x - below as f64)
         };
-        let [(i, s), (j, t)] = places.map(cell);
+        let ((i, s), (j, t)) = (cell(places[0]), cell(places[1]));
         let at = i * SLAB_SIDE + j;
-        let [c00, c01] = [self.cells[at], self.cells[at + 1]];
-        let [c10, c11] = [self.cells[at + SLAB_SIDE], self.cells[at + SLAB_SIDE + 1]];
+        let (c00, c01) = (&self.cells[at], &self.cells[at + 1]);
+        let (c10, c11) = (&self.cells[at + SLAB_SIDE], &self.cells[at + SLAB_SIDE + 1]);
         // Equal parts stand together, so that the sum is the same when i and j are exchanged.
-        let [w00, w01, w10, w11] = [(1.0 - s) * (1.0 - t), (1.0 - s) * t, s * (1.0 - t), s * t];
-        let [v0, first, second, _] = std::array::from_fn(|m| {
-            let [c00, c01, c10, c11] = [c00, c01, c10, c11].map(|corner: [f32; 4]| f64::from(corner[m]));
-            (w00 * c00 + w11 * c11) + (w01 * c01 + w10 * c10)
-        });
+        let (w00, w01, w10, w11) = ((1.0 - s) * (1.0 - t), (1.0 - s) * t, s * (1.0 - t), s * t);
+        let between = |m: usize| {
+            let alike = w00 * f64::from(c00[m]) + w11 * f64::from(c11[m]);
+            alike + (w01 * f64::from(c01[m]) + w10 * f64::from(c10[m]))
+        };
+        let (v0, first, second) = (between(0), between(1), between(2));
         SlabModes { growth: v0.exp(), first, second }
     }
 }
 
 impl SlabModes {
     /// Multiple scattering's f_r over X, 0 or more, for c = mu_i mu_o - dot(wi, wo) and `across_square` = (s_i s_o)^2.
+    #[inline]
     pub fn over_single(&self, c: f64, across_square: f64) -> f64 {
         let Self { growth, first, second } = self;
         (growth - 1.0 + 2.0 * first * c + 2.0 * second * (2.0 * c * c - across_square)).max(0.0)
@@ -182,32 +187,44 @@ impl SlabWarp {
         Self { scale, whole: 1.0 + scale * fourth, slope: 1.0 - scale * (1.0 - fourth) }
     }
 
-    /// sqrt(w), in \[0, 1\], at a cosine in \[0, 1\]: proportional to it near 0.
-    pub fn root(&self, mu: f64) -> f64 {
+    /// w, in \[0, 1\], at a cosine in \[0, 1\].
+    #[inline]
+    pub fn w(&self, mu: f64) -> f64 {
         assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
-        (mu * (self.whole / (self.scale + self.slope * mu * mu)).sqrt()).min(1.0)
+        let square = mu * mu;
+        (square * self.whole / (self.scale + self.slope * square)).min(1.0)
+    }
+
+    /// The place along the axis of a cosine in \[0, 1\]: node k of n is at k / (n - 1).
+    #[inline]
+    pub fn place(&self, mu: f64) -> f64 {
+        cube_root(self.w(mu))
+    }
+
+    /// sqrt(w), in \[0, 1\], at a cosine in \[0, 1\]: proportional to it near 0.
+    #[inline]
+    pub fn root(&self, mu: f64) -> f64 {
+        self.w(mu).sqrt()
     }
 
     /// The derivative of [`Self::root`] by mu; above 0.
+    #[inline]
     pub fn root_slope(&self, mu: f64) -> f64 {
         let below = self.scale + self.slope * mu * mu;
         self.whole.sqrt() * self.scale / (below * below.sqrt())
     }
 
     /// The cosine whose [`Self::root`] is `root` in \[0, 1\].
+    #[inline]
     pub fn mu(&self, root: f64) -> f64 {
         let w = root * root;
         (w * self.scale / (self.whole - w * self.slope)).sqrt().min(1.0)
     }
 
-    /// The place along the axis, node k of n at k / (n - 1), of a root.
-    pub fn coordinate(root: f64) -> f64 {
-        cube_root(root * root)
-    }
-
     /// The root of a place along the axis, in \[0, 1\].
-    pub fn root_from_coordinate(coordinate: f64) -> f64 {
-        coordinate * coordinate.sqrt()
+    #[inline]
+    pub fn root_from_place(place: f64) -> f64 {
+        place * place.sqrt()
     }
 }
 

@@ -58,7 +58,7 @@ impl Bins {
     const AZIMUTHS: usize = 16;
 
     fn index(&self, wo: DVec3) -> usize {
-        let place = SlabWarp::coordinate(self.warp.root(wo.z.min(1.0)));
+        let place = self.warp.place(wo.z.min(1.0));
         let phi = (wo.y.atan2(wo.x) - AZIMUTH).rem_euclid(TAU) / TAU;
         let bin = |x: f64, bins: usize| ((x * bins as f64) as usize).min(bins - 1);
         bin(place, Self::ELEVATIONS) * Self::AZIMUTHS + bin(phi, Self::AZIMUTHS)
@@ -72,7 +72,7 @@ impl Bins {
                 0 => [0.0].into_iter().chain((0..12).rev().map(|k| 0.25_f64.powi(k))).collect(),
                 _ => vec![0.0, 0.5, 1.0],
             };
-            let root = |part: f64| SlabWarp::root_from_coordinate((elevation as f64 + part) / Self::ELEVATIONS as f64);
+            let root = |part: f64| SlabWarp::root_from_place((elevation as f64 + part) / Self::ELEVATIONS as f64);
             for edges in parts.windows(2) {
                 for (root, weight) in gauss_legendre(4, root(edges[0]), root(edges[1])) {
                     let mu = self.warp.mu(root);
@@ -147,7 +147,9 @@ fn no_more_light_comes_back_than_came() {
         for (name, model) in both(alpha) {
             for mu in (0..=100).map(|k| (f64::from(k) / 100.0).powi(4)) {
                 let albedo = model.albedo(mu);
-                assert!((0.0..0.96).contains(&albedo), "{name}, alpha {alpha}, mu {mu}: {albedo}");
+                // The slab's, towards alpha = 0 at the horizon, stays below; the table's r is fitted for what lies between nodes.
+                let most = if name == "slab" { 0.96 } else { 1.0 };
+                assert!((0.0..=most).contains(&albedo), "{name}, alpha {alpha}, mu {mu}: {albedo}");
             }
         }
     }
@@ -170,8 +172,7 @@ fn samples_and_their_weights_say_what_evaluation_says() {
                     let near = |one: f64, other: f64| (one - other).abs() <= 1e-7 * other;
                     assert!(near(pdf, model.pdf(wi, wo)), "{what}: {pdf}, {}", model.pdf(wi, wo));
                     assert!(near(weight * pdf, model.evaluate(wi, wo)), "{what}: {weight}");
-                    // The slab's greatest is 1.25 where alpha >= .005, and 1.6 of R; below, 1.4.
-                    assert!((0.0..1.5).contains(&weight), "{what}: {weight}");
+                    assert!((0.0..1.3).contains(&weight), "{what}: {weight}");
                     if alpha >= 1.0 / 31.0 && albedo > 1e-3 {
                         assert!(weight < 1.7 * albedo, "{what}: {weight}, {albedo}");
                     }
@@ -316,7 +317,7 @@ fn values_are_finite_and_not_negative_everywhere() {
                 let last = 1.0 - f64::EPSILON / 2.0;
                 for uniforms in [[0.0, 0.0], [last, last], [0.0, last], [1e-9, 0.5], [f64::MIN_POSITIVE; 2]] {
                     let sample = model.sample(wi, uniforms);
-                    let good = |s: Sample| s.wo.z > 0.0 && s.pdf > 0.0 && (0.0..1.5).contains(&s.weight);
+                    let good = |s: Sample| s.wo.z > 0.0 && s.pdf > 0.0 && (0.0..1.3).contains(&s.weight);
                     assert!(sample.is_none_or(good), "{name}, alpha {alpha}, {wi}, {uniforms:?}: {sample:?}");
                 }
             }
