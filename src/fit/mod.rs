@@ -15,7 +15,7 @@ pub mod least_squares;
 pub mod lobe;
 mod report;
 
-pub use report::{Errors, Report};
+pub use report::{DIM, Errors, Report};
 
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};

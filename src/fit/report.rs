@@ -5,7 +5,7 @@ use super::{Fit, RESOLUTION, grazing_mu};
 use crate::table::LtcTable;
 use std::fmt;
 
-/// Albedo below which a lobe is left out of the errors: nobody sees it.
+/// Albedo R below which a lobe is left out of errors: nobody sees it.
 pub const DIM: f64 = 1e-3;
 
 /// Statistics of relative errors.
