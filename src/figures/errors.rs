@@ -3,7 +3,7 @@
 use super::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
-use crate::fit::Errors;
+use crate::fit::{DIM, Errors};
 use crate::fit::lobe::Lobes;
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
@@ -16,9 +16,6 @@ pub const NAMES: [&str; 2] = ["error_lobe.svg", "error_r.svg"];
 pub const LOBE_CELLS: usize = 48;
 /// Cells a side of r's errors.
 pub const ALBEDO_CELLS: usize = 96;
-
-/// R below which a lobe is left out: nobody sees it.
-const DIM: f64 = 1e-3;
 
 /// Steps of [`errors`] that are told.
 pub const fn steps() -> usize {

@@ -16,7 +16,7 @@ pub mod lobe;
 mod report;
 pub mod slab;
 
-pub use report::{Errors, Report};
+pub use report::{DIM, Errors, Report};
 
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
@@ -28,8 +28,13 @@ use rayon::prelude::*;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The cosine at which a and b of the table's row mu = 0 are fitted.
+/// The cosine at which a and b of the shipped table's row mu = 0 are fitted.
 pub const GRAZING_MU: f64 = 0.01;
+
+/// The same for a table of `resolution` nodes a side: not past the middle of the first cell.
+pub fn grazing_mu(resolution: usize) -> f64 {
+    GRAZING_MU.min(node(1, resolution) / 2.0)
+}
 
 /// Nodes a side of the shipped table.
 pub const RESOLUTION: usize = 32;
@@ -57,7 +62,7 @@ pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcT
     let rows: Vec<Vec<Fit>> = (0..resolution)
         .into_par_iter()
         .map(|j| {
-            let row = row(&lobes, node(j).max(GRAZING_MU));
+            let row = row(&lobes, if j == 0 { grazing_mu(resolution) } else { node(j) });
             step();
             row
         })

@@ -1,11 +1,11 @@
 //! How good a fitted table is.
 
 use super::albedo::Albedos;
-use super::{Fit, GRAZING_MU, RESOLUTION};
+use super::{Fit, RESOLUTION, grazing_mu};
 use crate::table::LtcTable;
 use std::fmt;
 
-/// Albedo below which a lobe is left out of the errors: nobody sees it.
+/// Albedo R below which a lobe is left out of errors: nobody sees it.
 pub const DIM: f64 = 1e-3;
 
 /// Statistics of relative errors.
@@ -74,8 +74,9 @@ alpha: roughness, small is fuzz, large is dust. mu: cosine of wi (the view in re
 a, b: inverse matrix by rows (a,0,b), (0,a,0), (0,0,1) in the frame z = normal, x = wi projected on the surface; b <= 0.
 r: albedo of the lobe, all colours 1. Reflected radiance = C_sheen r x (integral of the transformed cosine x radiance).
 Lookup: bilinear. r is fitted for the interpolated value: near alpha = mu = 0 it is far from the albedo at the node.
-a, b of mu = 0 are those of mu = {GRAZING_MU}. alpha = 0 has no lobe: a and b of the next alpha.",
+a, b of mu = 0 are those of mu = {grazing}. alpha = 0 has no lobe: a and b of the next alpha.",
             last = self.resolution - 1,
+            grazing = grazing_mu(self.resolution),
         );
         let made = format!("Made by: velour fit{option}");
         about.lines().map(str::to_owned).chain(self.to_string().lines().map(str::to_owned)).chain([made]).collect()
