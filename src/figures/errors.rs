@@ -3,8 +3,8 @@
 use super::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
-use crate::fit::{DIM, Errors};
 use crate::fit::lobe::Lobes;
+use crate::fit::{DIM, Errors};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::table::{Ltc, LtcTable};

@@ -34,3 +34,40 @@ pub fn cube_root(x: f64) -> f64 {
 pub fn one_minus_exp(x: f64) -> f64 {
     if x < 0.01 { -(-x).exp_m1() } else { 1.0 - (-x).exp() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::frame::AzimuthFrame;
+    use super::{cube_root, one_minus_exp};
+    use glam::DVec3;
+
+    #[test]
+    fn cube_roots_are_the_slow_ones() {
+        assert_eq!([cube_root(0.0), cube_root(1e-301)], [0.0; 2]);
+        for k in 0..=10_000 {
+            let x = 1e-299_f64.powf(f64::from(k) / 10_000.0);
+            assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 1e-13, "{x:e}");
+        }
+    }
+
+    #[test]
+    fn what_an_exponential_leaves_of_1_is_kept_to_its_last_digits() {
+        assert_eq!([one_minus_exp(0.0), one_minus_exp(f64::INFINITY)], [0.0, 1.0]);
+        for k in 0..=10_000 {
+            let x = 100.0 * 1e-20_f64.powf(f64::from(k) / 10_000.0);
+            assert!((one_minus_exp(x) / -(-x).exp_m1() - 1.0).abs() < 2e-14, "{x:e}");
+        }
+    }
+
+    #[test]
+    fn frames_turn_their_direction_to_x() {
+        for w in [DVec3::new(0.6, 0.0, 0.8), DVec3::new(-0.48, 0.64, 0.6), DVec3::new(0.0, -1.0, 0.0)] {
+            let local = AzimuthFrame::of(w).local(w);
+            assert!(local.x > 0.0 && local.y.abs() < 1e-15 && local.z == w.z, "{local}");
+            let other = DVec3::new(0.3, -0.2, 0.1);
+            let frame = AzimuthFrame::of(w);
+            assert!((frame.outside(frame.local(other)) - other).length() < 1e-15, "{w}");
+        }
+        assert_eq!(AzimuthFrame::of(DVec3::Z).local(DVec3::X), DVec3::X);
+    }
+}

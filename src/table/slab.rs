@@ -24,6 +24,7 @@
 use super::TableError;
 use crate::math::cube_root;
 use half::f16;
+use std::fmt;
 use std::path::Path;
 
 /// Nodes along each axis.
@@ -36,7 +37,7 @@ pub const LEAST_SLAB_ALPHA: f64 = 0.005;
 const RANGES: [(f64, f64); 3] = [(-1.0, 16.0), (-1.0, 1.0), (-1.0, 1.0)];
 
 /// The multiple scattering of slabs of all roughnesses, in halves.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct SlabTable {
     /// v0, v1, v2; mu_o varies fastest, alpha slowest. The same with mu_i and mu_o exchanged.
     cells: Vec<[f16; 3]>,
@@ -132,6 +133,13 @@ impl SlabTable {
             }
         }
         SlabSlice { warp, cells }
+    }
+}
+
+impl fmt::Debug for SlabTable {
+    /// Without the hundred thousand numbers.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_struct("SlabTable").finish_non_exhaustive()
     }
 }
 

@@ -162,7 +162,7 @@ fn below_the_first_alpha_values_go_on_straight_and_then_stand() {
 }
 
 fn error(bytes: &[u8]) -> String {
-    let error = SlabTable::from_dds(bytes).err().expect("a bad volume").to_string();
+    let error = SlabTable::from_dds(bytes).expect_err("a bad volume").to_string();
     assert!(!error.contains('\n') && error.len() < 300, "one line: {error}");
     error
 }
@@ -246,7 +246,7 @@ fn bad_files_are_named() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = |name: &str| folder.path().join(name);
     let error = |path: &Path| {
-        let error = SlabTable::load(path).err().expect("a bad file").to_string();
+        let error = SlabTable::load(path).expect_err("a bad file").to_string();
         assert!(error.starts_with(&format!("{}: ", path.display())) && !error.contains('\n'), "{error}");
         error
     };
