@@ -1,4 +1,4 @@
-//! What the tables cost: the slab's solution for one alpha, the random walk to hold against it, the fit of the sheen's table.
+//! What the tables cost: the slab's solution for one alpha, the random walk to hold against it, the fits of both tables.
 //!
 //! `cargo bench --no-default-features --bench fit`. Before the timings it prints, for some cells, how long the walk takes to know R as
 //! well as the solver does: its paths go with the inverse square of the error.
@@ -69,6 +69,7 @@ fn tables(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("fit");
     group.sample_size(10).measurement_time(Duration::from_secs(20));
     group.bench_function("sheen", |bencher| bencher.iter(|| fit::sheen(fit::RESOLUTION, |_, _| ())));
+    group.bench_function("slab", |bencher| bencher.iter(|| fit::slab::slab(|_, _| ())));
 }
 
 criterion_group!(benches, solver, walks, tables);

@@ -75,8 +75,8 @@ pub fn fit(resolution: usize, samples: &Albedos, at_nodes: &[f64]) -> Vec<f64> {
     for _ in 0..REWEIGHTINGS {
         let normal = Normal::new(n, samples, at_nodes, &r);
         for _ in 0..SWEEPS {
-            for node in n..n * n {
-                r[node] = normal.optimum(node, &r).clamp(LEAST * at_nodes[node], 1.0);
+            for (node, albedo) in at_nodes.iter().enumerate().skip(n) {
+                r[node] = normal.optimum(node, &r).clamp(LEAST * albedo, 1.0);
             }
         }
     }
@@ -94,10 +94,10 @@ struct Normal {
 impl Normal {
     fn new(n: usize, samples: &Albedos, at_nodes: &[f64], r: &[f64]) -> Self {
         let mut normal = Self { n, matrix: vec![[0.0; 9]; n * n], right: vec![0.0; n * n] };
-        for node in n..n * n {
-            let weight = PULL / at_nodes[node].powi(2);
+        for (node, albedo) in at_nodes.iter().enumerate().skip(n) {
+            let weight = PULL / albedo.powi(2);
             normal.matrix[node][4] += weight;
-            normal.right[node] += weight * at_nodes[node];
+            normal.right[node] += weight * albedo;
         }
         let side = (n - 1) * PER_CELL;
         for (index, &value) in samples.values.iter().enumerate().filter(|(_, value)| **value > DIM) {

@@ -67,7 +67,7 @@ pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcT
             row
         })
         .collect();
-    let samples = Albedos::new(samples.clone(), samples, &step);
+    let samples = Albedos::new(samples.clone(), samples, step);
     let at_node = |(i, j): (usize, usize)| if i == 0 { 0.0 } else { lobes[i - 1].transport.albedo(node(j)) };
     let nodes = || (0..resolution).flat_map(|i| (0..resolution).map(move |j| (i, j)));
     let r = albedo::fit(resolution, &samples, &nodes().map(at_node).collect::<Vec<_>>());
@@ -76,7 +76,7 @@ pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcT
         [a, b, r[i * resolution + j]].map(seven_digits)
     };
     let table = LtcTable::new([resolution; 2], nodes().map(|(i, j)| cell(i, j)).collect());
-    let report = Report::new(&table, rows.iter().flatten(), &step);
+    let report = Report::new(&table, rows.iter().flatten(), step);
     (table, report)
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use velour::fit;
 use velour::picture::write_atomically;
-use velour::table::LtcTable;
+use velour::table::{LtcTable, SlabTable};
 
 use crate::args::{Fit, Table};
 use crate::output::{self, with_progress};
@@ -19,7 +19,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     for table in tables {
         match table {
             Table::Sheen => sheen(arguments)?,
-            Table::Slab => (),
+            Table::Slab => slab(arguments)?,
         }
     }
     Ok(())
@@ -38,6 +38,18 @@ fn sheen(arguments: &Fit) -> Result<(), Failure> {
     let [csv, dds] = &paths;
     write_atomically(csv, table.to_csv(&report.header()).as_bytes()).map_err(Failure::input)?;
     write_atomically(dds, &table.to_dds()).map_err(Failure::input)?;
+    wrote(&paths, report);
+    Ok(())
+}
+
+fn slab(arguments: &Fit) -> Result<(), Failure> {
+    let paths = [arguments.output.join("sheen_slab.dds")];
+    let found = files(arguments, &paths, |path| SlabTable::load(path).map_err(Failure::input))?;
+    let (table, report) = with_progress("slab", |step| fit::slab::slab(step));
+    if arguments.check {
+        return paths.iter().zip(found).try_for_each(|(path, found)| compared(path, Some(found.half_steps(&table))));
+    }
+    write_atomically(&paths[0], &table.to_dds()).map_err(Failure::input)?;
     wrote(&paths, report);
     Ok(())
 }

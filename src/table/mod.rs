@@ -124,7 +124,8 @@ impl LtcTable {
     /// One step is what rounding differently on another machine may leave.
     pub fn half_steps(&self, other: &Self) -> Option<u32> {
         let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
-        (self.size == other.size).then(|| pairs.map(|(one, other)| half_steps(*one, *other)).max().unwrap_or_default())
+        let steps = |(one, other): (&f64, &f64)| half_steps(f16::from_f64(*one), f16::from_f64(*other));
+        (self.size == other.size).then(|| pairs.map(steps).max().unwrap_or_default())
     }
 
     /// `[a, b, r]` at `alpha` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
@@ -196,11 +197,11 @@ pub fn node(k: usize, n: usize) -> f64 {
     k as f64 / (n - 1) as f64
 }
 
-/// How many half-floats `one` and `other` are apart once they are rounded to halves.
-fn half_steps(one: f64, other: f64) -> u32 {
-    // The bits of halves, their sign apart, ascend with their magnitude.
-    let place = |value: f64| {
-        let bits = i32::from(f16::from_f64(value).to_bits());
+/// How many half-floats lie from `one` to `other`.
+fn half_steps(one: f16, other: f16) -> u32 {
+    // Without their sign, bits of halves ascend with the number.
+    let place = |value: f16| {
+        let bits = i32::from(value.to_bits());
         if bits & 0x8000 == 0 { bits } else { 0x8000 - bits }
     };
     place(one).abs_diff(place(other))

@@ -21,7 +21,7 @@
 //! the alpha of the lookup itself, not for that of a node. Linear between the nodes, whose values are fitted for it. Two modes leave
 //! 0.3% of a lobe (relative L2), three 0.05%.
 
-use super::TableError;
+use super::{TableError, half_steps};
 use crate::math::cube_root;
 use half::f16;
 use std::fmt;
@@ -103,6 +103,14 @@ impl SlabTable {
     /// A table of what a file holds, or which node (alpha, mu_i, mu_o) has what wrong.
     pub(super) fn from_halves(cells: Vec<[f16; 3]>) -> Result<Self, ([usize; 3], String)> {
         defect(&cells).map_or(Ok(Self { cells }), Err)
+    }
+
+    /// The largest difference to `other` over all numbers, in steps from one half-float to the next. Those within 1e-6 do not count:
+    /// next to 0 halves are finer than anything here is known.
+    pub fn half_steps(&self, other: &Self) -> u32 {
+        let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
+        let apart = pairs.filter(|(one, other)| (one.to_f64() - other.to_f64()).abs() > 1e-6);
+        apart.map(|(one, other)| half_steps(*one, *other)).max().unwrap_or_default()
     }
 
     /// v0, v1, v2 of node (k, i, j) of (alpha, mu_i, mu_o).
