@@ -8,7 +8,7 @@ use velour::picture::{Format, check_writable, write_atomically};
 use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Offscreen, RenderError};
 use velour::scene::{Camera, Scene, Settings, gltf};
-use velour::table::LtcTable;
+use velour::table::{LtcTable, SLAB_SIDE, SlabTable};
 
 use crate::render_args::{Render, Switch};
 use crate::{Failure, complain, say};
@@ -212,5 +212,9 @@ pub fn info() -> Result<(), Failure> {
     let table = LtcTable::embedded();
     let [alphas, mus] = table.size();
     say(format!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum()));
+    say(format!(
+        "table: sheen_slab {SLAB_SIDE}x{SLAB_SIDE}x{SLAB_SIDE}, checksum {:08x}",
+        SlabTable::embedded().checksum()
+    ));
     Ok(())
 }

@@ -113,6 +113,11 @@ impl SlabTable {
         apart.map(|(one, other)| half_steps(*one, *other)).max().unwrap_or_default()
     }
 
+    /// CRC-32 of the .dds file: tells tables apart.
+    pub fn checksum(&self) -> u32 {
+        crc32fast::hash(&self.to_dds())
+    }
+
     /// v0, v1, v2 of node (k, i, j) of (alpha, mu_i, mu_o).
     pub fn cell(&self, k: usize, i: usize, j: usize) -> [f64; 3] {
         self.halves(k, i, j).map(f16::to_f64)

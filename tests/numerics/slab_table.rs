@@ -30,6 +30,9 @@ fn the_shipped_table_is_what_the_code_makes() {
     });
     assert_eq!((calls.into_inner(), most.into_inner()), (SLAB_SIDE + 12, SLAB_SIDE + 12));
     assert!(shipped.half_steps(&made) <= 1, "velour fit makes another table");
+    let velour::fit::Errors { mean, median, max } = report.lobe;
+    let figure = format!("mean {mean:.4}, median {median:.4}, max {max:.4}");
+    assert!(include_str!("../../README.md").contains(&figure), "README.md does not say '{figure}'");
     // Mean .0019, greatest .0074 of a lobe; R .0014 and .0086.
     assert!(report.cells > 200 && report.lobe.mean < 0.0022 && report.lobe.max < 0.009, "{report}");
     assert!(report.albedo.mean < 0.0017 && report.albedo.max < 0.01, "{report}");

@@ -8,4 +8,5 @@ mod radiance;
 mod run;
 mod shown;
 mod stage;
+mod tables;
 mod truth;
