@@ -320,4 +320,6 @@ fn cosines_outside_their_range_are_told() {
     for alpha in [0.0, -0.5, 1.5, f64::NAN] {
         assert!(std::panic::catch_unwind(|| Slab::new(alpha)).is_err(), "alpha {alpha}");
     }
+    // Allowed by the slab, but no solver's: it is told before memory is taken.
+    assert!(std::panic::catch_unwind(|| solve(1e-6, 1, 1.0)).is_err());
 }
