@@ -47,7 +47,7 @@
 //! | `tau` | optical depth | \[0, infinity) | |
 //! | `K`, `K_m` | the kernel, extinction x phase function, and its azimuthal modes | \[0, infinity) | S; [`physics::modes`] |
 //! | lobe | f_r(wi, wo) mu_o: reflected radiance times cosine per unit of flux from `wi` | | Z |
-//! | `R`, `r` | albedo: the share of light that the layer sends back up; `r` is the table's column | \[0, 1\] | Z eq. 1 |
+//! | `R`, `r` | albedo: the share of light that the layer sends back up; `r` is the table's column, fitted for lookups between its nodes | \[0, 1\] | Z eq. 1 |
 //! | `a`, `b` | the table's columns of the inverse matrix | a >= 0 | Z section 2 |
 //! | `m_inv` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | | Z section 2, H |
 //! | `D` | the clamped cosine on the unit sphere, `max(w_z, 0) / pi` | | H |

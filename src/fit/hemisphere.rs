@@ -12,7 +12,7 @@ pub const AZIMUTHS: usize = 32;
 ///
 /// Cosines are given: those of [`Transport::cosines`](crate::physics::transport::Transport::cosines) are fine where a slab's
 /// lobes are. Azimuths are Gauss nodes of u, phi = pi (1 - u^2), dense towards the direction straight on, around which single scattering
-/// at the horizon has a notch. A lobe's integral is its albedo to 2e-5 for alpha >= 2/31, to 1e-4 at 1/31.
+/// at the horizon has a notch. A lobe's integral is its albedo to 5e-5 for alpha >= 2/31, to 1e-4 at 1/31.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
     /// Directions; the [`AZIMUTHS`] of one cosine in a row.

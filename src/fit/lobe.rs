@@ -2,7 +2,7 @@
 
 use super::hemisphere::{AZIMUTHS, Hemisphere};
 use crate::math::{fourier::cosine_sum, sine};
-use crate::physics::transport::{MOST_MODES, Resolution, Transport};
+use crate::physics::transport::{MOST_MODES, Transport};
 use glam::DVec3;
 
 /// A solved slab, and the quadrature on which its lobes are known.
@@ -23,7 +23,7 @@ impl Lobes {
         let (slab, albedo) = (transport.slab(), transport.albedo(mu));
         let wi = DVec3::new(sine(mu), 0.0, mu);
         let mut modes = [0.0; MOST_MODES];
-        let modes = &mut modes[..Resolution::default().modes];
+        let modes = &mut modes[..transport.modes()];
         let mut shape = Vec::with_capacity(hemisphere.nodes.len());
         for ring in hemisphere.nodes.chunks_exact(AZIMUTHS) {
             let mu_o = ring[0].z;

@@ -6,8 +6,9 @@
 //! - mu = 0 is a limit that is reached steeply, and whose lobe is nothing like its neighbours': that row's a, b are those of
 //!   mu = [`GRAZING_MU`], as in the table that the paper published.
 //! - alpha = 0 has no lobe (sigma = 0) and serves interpolation only: its a, b are those of the next alpha.
-//! - r is not R at the nodes but what interpolates to R between them: see [`albedo`]. Near the corner of low alpha and grazing mu,
-//!   where R falls from 0.9 to nothing within a cell, it leaves R by a lot.
+//! - r is not R at the nodes but what interpolates to R between them: see [`albedo`]. Below alpha = 0.25, along the edge where R rises from
+//!   nothing, it is 10 to 80% under R; at the corner of low alpha and grazing mu, where R falls from 0.9 to nothing within a cell, it
+//!   leaves R by a lot either way, and should.
 
 pub mod albedo;
 pub mod hemisphere;

@@ -39,7 +39,7 @@ pub struct Report {
     pub weighted: f64,
     /// Relative error of the interpolated r at the centres of the table's cells.
     pub centres: Errors,
-    /// The same at the centres of a grid of [`SPREAD`] x [`SPREAD`] cells, which fall anywhere in the table's. Were they at random, the
+    /// The same at the centres of a grid of 48 x 48 cells, which fall anywhere in the table's. Were they at random, the
     /// greatest would be a matter of the few next to alpha = mu = 0: see [`albedo`](super::albedo).
     pub spread: Errors,
 }
@@ -73,10 +73,11 @@ impl Report {
 alpha: roughness, small is fuzz, large is dust. mu: cosine of wi (the view in rendering) to the normal. Node k sits at k/{last}.
 a, b: inverse matrix by rows (a,0,b), (0,a,0), (0,0,1) in the frame z = normal, x = wi projected on the surface; b <= 0.
 r: albedo of the lobe, all colours 1. Reflected radiance = C_sheen r x (integral of the transformed cosine x radiance).
-Lookup: bilinear. r is fitted for the interpolated value: near alpha = mu = 0 it is far from the albedo at the node.
+Lookup: bilinear. r is fitted for the interpolated value: below alpha = 0.25, where R rises steeply, it is 10 to 80% under R at the node,
+and next to alpha = mu = 0 far from it either way.
 a, b of mu = 0 are those of mu = {grazing}. alpha = 0 has no lobe: a and b of the next alpha.",
             last = self.resolution - 1,
-            grazing = grazing_mu(self.resolution),
+            grazing = (grazing_mu(self.resolution) * 1e6).round() / 1e6,
         );
         let made = format!("Made by: velour fit{option}");
         about.lines().map(str::to_owned).chain(self.to_string().lines().map(str::to_owned)).chain([made]).collect()

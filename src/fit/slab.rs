@@ -1,10 +1,11 @@
 //! From the slab's solution to its table for path tracers.
 //!
 //! What a node holds is not what is solved there but what interpolates best: in mu, linear interpolation is fitted by least squares to
-//! values at [`PER_CELL`] x [`PER_CELL`] points a cell. With P the pseudo-inverse of the matrix that interpolates from nodes to points,
+//! values at 4 x 4 points a cell. With P the pseudo-inverse of the matrix that interpolates from nodes to points,
 //! and G the values at pairs of points, that is P G P^T; it leaves half the error of values at the nodes. In alpha, values are those at
 //! the nodes.
 
+use super::hemisphere::Hemisphere;
 use super::report::{DIM, Errors};
 use crate::math::sine;
 use crate::physics::modes::Elevation;
@@ -16,8 +17,6 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-use super::hemisphere::Hemisphere;
 
 /// Points a cell and axis of mu.
 const PER_CELL: usize = 4;
@@ -35,7 +34,7 @@ const REPORT_ALPHAS: usize = 12;
 const REPORT_MUS: usize = 24;
 
 /// Least alpha of the report, below which the truth is known less well.
-const LEAST_ALPHA: f64 = 1.0 / 31.0;
+const REPORT_LEAST_ALPHA: f64 = 1.0 / 31.0;
 
 /// How good a slab's table is, single scattering added: relative errors between its nodes where R > 1e-3 and alpha >= 1/31.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +109,7 @@ fn fit_of_nodes(at: &[f64]) -> DMatrix<f64> {
 
 fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
     // From the first alpha in question on, spread over the cells up to the last; half a cell aside from the nodes.
-    let first = (0..SLAB_SIDE).find(|k| slab_alpha_between(*k) >= LEAST_ALPHA).unwrap_or_default();
+    let first = (0..SLAB_SIDE).find(|k| slab_alpha_between(*k) >= REPORT_LEAST_ALPHA).unwrap_or_default();
     let alphas = (0..REPORT_ALPHAS).map(|k| first + k * (SLAB_SIDE - 2 - first) / (REPORT_ALPHAS - 1));
     let alphas: Vec<f64> = alphas.map(slab_alpha_between).collect();
     let errors: Vec<Vec<[f64; 2]>> = alphas

@@ -1,8 +1,10 @@
 //! The commands and their flags.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use velour::fit::RESOLUTIONS;
 
 #[cfg(feature = "gpu")]
 use crate::render_args::Render;
@@ -52,12 +54,18 @@ pub struct Fit {
     /// Which table: sheen is sheen_ltc.csv and .dds, slab is sheen_slab.dds [default: all]
     #[arg(long, value_enum, value_name = "sheen|slab")]
     pub only: Option<Table>,
-    /// Nodes along alpha and along mu of the sheen's table
-    #[arg(long, default_value_t = 32, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=128))]
-    pub resolution: u16,
+    /// Nodes along alpha and along mu of the sheen's table, 2 to 128 [default: 32]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(resolutions()))]
+    pub resolution: Option<u16>,
     /// Writes nothing: compares the folder's tables with what would be written, to one half-float step
     #[arg(long)]
     pub check: bool,
+}
+
+/// Of the sheen's table.
+fn resolutions() -> RangeInclusive<i64> {
+    let side = |side: &usize| *side as i64;
+    side(RESOLUTIONS.start())..=side(RESOLUTIONS.end())
 }
 
 #[derive(Clone, Copy, ValueEnum, PartialEq)]

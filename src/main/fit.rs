@@ -5,81 +5,96 @@ use std::path::{Path, PathBuf};
 
 use velour::fit;
 use velour::picture::write_atomically;
-use velour::table::{LtcTable, SlabTable};
+use velour::table::{LtcTable, SlabTable, TableError};
 
 use crate::args::{Fit, Table};
-use crate::output::{self, with_progress};
+use crate::output::{prepare, with_progress};
 use crate::{Failure, say};
-
-pub fn fit(arguments: &Fit) -> Result<(), Failure> {
-    let tables = match arguments.only {
-        Some(table) => vec![table],
-        None => vec![Table::Sheen, Table::Slab],
-    };
-    for table in tables {
-        match table {
-            Table::Sheen => sheen(arguments)?,
-            Table::Slab => slab(arguments)?,
-        }
-    }
-    Ok(())
-}
 
 /// Half-float steps between what this machine makes and what another one may have made.
 const ROUNDING: u32 = 1;
 
-fn sheen(arguments: &Fit) -> Result<(), Failure> {
-    let paths = ["sheen_ltc.csv", "sheen_ltc.dds"].map(|name| arguments.output.join(name));
-    let found = files(arguments, &paths, |path| LtcTable::load(path).map_err(Failure::input))?;
-    let (table, report) = with_progress("sheen", |step| fit::sheen(arguments.resolution.into(), step));
-    if arguments.check {
-        return paths.iter().zip(found).try_for_each(|(path, found)| compared(path, found.half_steps(&table)));
+/// What can fail comes before the work, for all tables. A check tells of every file, and fails once.
+pub fn fit(arguments: &Fit) -> Result<(), Failure> {
+    if arguments.only == Some(Table::Slab) && arguments.resolution.is_some() {
+        return Err(Failure::input("--resolution is the sheen's: leave it out with --only slab"));
     }
-    let [csv, dds] = &paths;
-    write_atomically(csv, table.to_csv(&report.header()).as_bytes()).map_err(Failure::input)?;
-    write_atomically(dds, &table.to_dds()).map_err(Failure::input)?;
-    wrote(&paths, report);
-    Ok(())
+    let sheen = Files::of(arguments, Table::Sheen, &["sheen_ltc.csv", "sheen_ltc.dds"], |path| LtcTable::load(path))?;
+    let slab = Files::of(arguments, Table::Slab, &["sheen_slab.dds"], |path| SlabTable::load(path))?;
+    let mut wrong = Vec::new();
+    if let Some(files) = sheen {
+        let resolution = arguments.resolution.map_or(fit::RESOLUTION, usize::from);
+        let (table, report) = with_progress("sheen", |step| fit::sheen(resolution, step));
+        wrong.extend(files.check(|found| found.half_steps(&table)));
+        let csv = || table.to_csv(&report.header()).into_bytes();
+        files.write(arguments, &[&csv, &|| table.to_dds()], &report)?;
+    }
+    if let Some(files) = slab {
+        let (table, report) = with_progress("slab", |step| fit::slab::slab(step));
+        wrong.extend(files.check(|found| Some(found.half_steps(&table))));
+        files.write(arguments, &[&|| table.to_dds()], &report)?;
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(Failure::check(wrong.join("; "))) }
 }
 
-fn slab(arguments: &Fit) -> Result<(), Failure> {
-    let paths = [arguments.output.join("sheen_slab.dds")];
-    let found = files(arguments, &paths, |path| SlabTable::load(path).map_err(Failure::input))?;
-    let (table, report) = with_progress("slab", |step| fit::slab::slab(step));
-    if arguments.check {
-        return paths.iter().zip(found).try_for_each(|(path, found)| compared(path, Some(found.half_steps(&table))));
-    }
-    write_atomically(&paths[0], &table.to_dds()).map_err(Failure::input)?;
-    wrote(&paths, report);
-    Ok(())
+/// The files of a table.
+struct Files<T> {
+    paths: Vec<PathBuf>,
+    /// What they hold, where that is checked.
+    found: Vec<T>,
 }
 
-/// What can fail comes before the work: with `--check` the files are read, else it is seen that they can be written.
-fn files<T>(arguments: &Fit, paths: &[PathBuf], load: impl Fn(&Path) -> Result<T, Failure>) -> Result<Vec<T>, Failure> {
-    if arguments.check {
-        return paths.iter().map(|path| load(path)).collect();
-    }
-    output::prepare(&arguments.output, paths)?;
-    Ok(vec![])
-}
-
-/// Says how a file compares with the table that the program makes; `steps` is none where their sizes differ.
-fn compared(path: &Path, steps: Option<u32>) -> Result<(), Failure> {
-    let path = path.display();
-    match steps {
-        None => Err(Failure::check(format!("{path}: has another size than what the program makes; see --resolution"))),
-        Some(steps) if steps > ROUNDING => Err(Failure::check(format!(
-            "{path}: is not what the program makes, up to {steps} half-float steps off; without --check it is made anew"
-        ))),
-        Some(steps) => {
-            say(format!("{path}: is what the program makes, to {steps} half-float steps"));
-            Ok(())
+impl<T> Files<T> {
+    /// None where the table is not asked for. With `--check` the files are read, else it is seen that they can be written.
+    fn of(
+        arguments: &Fit,
+        table: Table,
+        names: &[&str],
+        load: impl Fn(&Path) -> Result<T, TableError>,
+    ) -> Result<Option<Self>, Failure> {
+        if arguments.only.is_some_and(|only| only != table) {
+            return Ok(None);
         }
+        let paths: Vec<PathBuf> = names.iter().map(|name| arguments.output.join(name)).collect();
+        let mut found = Vec::new();
+        if arguments.check {
+            for path in &paths {
+                found.push(load(path).map_err(Failure::input)?);
+            }
+        } else {
+            prepare(&arguments.output, &paths)?;
+        }
+        Ok(Some(Self { paths, found }))
     }
-}
 
-fn wrote(paths: &[PathBuf], report: impl Display) {
-    say(report);
-    let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-    say(format!("wrote {}", names.join(" and ")));
+    /// Says which of the files that were read hold the table, and gives what is wrong with the others. `steps` is how many half-floats
+    /// they are off, none where the sizes differ.
+    fn check(&self, steps: impl Fn(&T) -> Option<u32>) -> Vec<String> {
+        let mut wrong = Vec::new();
+        for (path, found) in self.paths.iter().zip(&self.found) {
+            let path = path.display();
+            match steps(found) {
+                None => wrong.push(format!("{path}: has another size than what the program makes: see --resolution")),
+                Some(steps) if steps > ROUNDING => wrong.push(format!(
+                    "{path}: is not what the program makes, up to {steps} half-float steps off: without --check it is made anew"
+                )),
+                Some(steps) => say(format!("{path}: is what the program makes, to {steps} half-float steps")),
+            }
+        }
+        wrong
+    }
+
+    /// Writes the files, unless they were only to be checked.
+    fn write(&self, arguments: &Fit, bytes: &[&dyn Fn() -> Vec<u8>], report: &impl Display) -> Result<(), Failure> {
+        if arguments.check {
+            return Ok(());
+        }
+        for (path, bytes) in self.paths.iter().zip(bytes) {
+            write_atomically(path, &bytes()).map_err(Failure::input)?;
+        }
+        say(report);
+        let names: Vec<String> = self.paths.iter().map(|path| path.display().to_string()).collect();
+        say(format!("wrote {}", names.join(" and ")));
+        Ok(())
+    }
 }

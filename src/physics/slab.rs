@@ -22,9 +22,10 @@ impl Slab {
         Self { medium: Sggx::new(sigma_from_alpha(alpha)), thickness: 1.0 }
     }
 
-    /// The same fibres in a slab of another thickness, in units of the mean free path across them; > 0. The tables are of 1.
+    /// The same fibres in a slab of another thickness, in units of the mean free path across them, in \[1e-12, 1e6\]. The
+    /// tables are of 1.
     pub fn with_thickness(self, thickness: f64) -> Self {
-        assert!(thickness > 0.0 && thickness.is_finite(), "a thickness is above 0: {thickness}");
+        assert!((1e-12..=1e6).contains(&thickness), "a thickness is in [1e-12, 1e6]: {thickness}");
         Self { thickness, ..self }
     }
 
@@ -95,7 +96,7 @@ impl Slab {
 
     /// What the kernel is multiplied by to give single scattering's transmitted radiance per unit of flux:
     /// (exp(-A_o) - exp(-A_i)) / ((A_i - A_o) mu_i mu_o) for thickness 1.
-    pub(super) fn transmitted_once(&self, one: Elevation, other: Elevation) -> f64 {
+    pub fn transmitted_once(&self, one: Elevation, other: Elevation) -> f64 {
         let (depth, other_depth) = (self.depth(one.mu), self.depth(other.mu));
         let difference = (depth - other_depth).abs();
         let mean = if difference > 0.0 { -(-difference).exp_m1() / difference } else { 1.0 };

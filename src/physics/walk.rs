@@ -51,8 +51,10 @@ pub struct Walk {
 pub struct Counts {
     /// Passed below without a scattering.
     pub unscattered: u64,
-    /// Left below after one or more scatterings.
-    pub transmitted: u64,
+    /// Left below after one scattering, by direction.
+    pub transmitted_once: Histogram,
+    /// Left below after two or more scatterings, by direction.
+    pub transmitted_more: Histogram,
     /// Left above after one scattering, by direction.
     pub reflected_once: Histogram,
     /// Left above after two or more scatterings, by direction.
@@ -62,7 +64,12 @@ pub struct Counts {
 impl Counts {
     /// All paths.
     pub fn paths(&self) -> u64 {
-        self.unscattered + self.transmitted + self.reflected()
+        self.unscattered + self.transmitted() + self.reflected()
+    }
+
+    /// Paths that left below after one or more scatterings.
+    pub fn transmitted(&self) -> u64 {
+        self.transmitted_once.total() + self.transmitted_more.total()
     }
 
     /// Paths that left above.
@@ -72,15 +79,16 @@ impl Counts {
 
     fn plus(mut self, other: &Self) -> Self {
         self.unscattered += other.unscattered;
-        self.transmitted += other.transmitted;
+        self.transmitted_once.add(&other.transmitted_once);
+        self.transmitted_more.add(&other.transmitted_more);
         self.reflected_once.add(&other.reflected_once);
         self.reflected_more.add(&other.reflected_more);
         self
     }
 }
 
-/// Counts over the upper hemisphere, in bins of the cosine `mu_o` and of the azimuth from `wi`, the two sides of the plane
-/// of incidence counted together.
+/// Counts over the upper or lower hemisphere, in bins of the magnitude of the cosine `mu_o` and of the azimuth from `wi`, the two sides of the
+/// plane of incidence counted together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Histogram {
     /// Cosine's bin times [`Histogram::PHI_BINS`] plus azimuth's bin.
@@ -121,7 +129,7 @@ impl Histogram {
 
     fn count(&mut self, wo: DVec3) {
         let bin = |x: f64, bins: usize| ((x * bins as f64) as usize).min(bins - 1);
-        let mu_bin = bin(wo.z.sqrt(), Self::MU_BINS);
+        let mu_bin = bin(wo.z.abs().sqrt(), Self::MU_BINS);
         let phi_bin = bin(wo.y.abs().atan2(wo.x) / PI, Self::PHI_BINS);
         self.bins[mu_bin * Self::PHI_BINS + phi_bin] += 1;
     }
@@ -195,8 +203,8 @@ impl Walk {
                 seen = stretched * -inverse_extinction;
             } else {
                 // Below, or no number.
-                counts.transmitted += 1;
-                return;
+                let histogram = if orders == 1 { &mut counts.transmitted_once } else { &mut counts.transmitted_more };
+                return histogram.count(out);
             }
         }
     }

@@ -7,7 +7,7 @@
 //! | `alpha` | the paper's roughness | node k of n at k/(n-1) |
 //! | `mu` | cosine between `wi` and the normal | node k of n at k/(n-1) |
 //! | `a`, `b` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | a >= 0; b of either sign |
-//! | `r` | albedo of the lobe | \[0, 1\] |
+//! | `r` | albedo of the lobe, such that its lookup is right between nodes: not R itself at those of low alpha | \[0, 1\] |
 //!
 //! A .csv holds one line a node, alpha-major; a .dds holds one texel a node, x = alpha, y = mu.
 //!

@@ -2,7 +2,7 @@
 
 use velour::fit::least_squares::{Free, LEAST_A, fit, squared_error};
 use velour::fit::lobe::Lobes;
-use velour::fit::{Errors, GRAZING_MU, sheen};
+use velour::fit::{DIM, Errors, GRAZING_MU, sheen};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
 use velour::physics::walk::{FirstFlight, Walk};
@@ -109,8 +109,8 @@ fn a_node_out_of_line_is_told() {
 fn the_table_is_what_the_code_makes() {
     let (table, report) = sheen(NODES, |_, _| ());
     let shipped = LtcTable::embedded();
-    // Bits are the same on one machine; others round matrix products otherwise.
-    assert_eq!(shipped.half_steps(&table), Some(0), "velour fit makes another table");
+    // Bits are the same on one machine; others round matrix products otherwise, though hardly in the header's four digits.
+    assert!(shipped.half_steps(&table).is_some_and(|steps| steps <= 1), "velour fit makes another table");
     let text = include_str!("../../tables/sheen_ltc.csv");
     let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
     assert_eq!(header, report.header(), "the errors at the head of the table");
@@ -119,21 +119,25 @@ fn the_table_is_what_the_code_makes() {
     assert!(report.centres.mean < 0.0065 && report.centres.max < 0.4, "{report}");
     assert!(report.spread.mean < 0.0065 && report.spread.max < 0.9, "{report}");
     let readme = include_str!("../../README.md");
-    for figure in report.figures() {
+    for figure in report.figures().into_iter().chain([format!("{} nodes with R > {DIM}", report.nodes)]) {
         assert!(readme.contains(&figure), "README.md does not say '{figure}'");
     }
 }
 
 #[test]
-fn r_leaves_the_albedo_at_the_corner_alone() {
+fn r_leaves_the_albedo_where_that_rises_steeply() {
     let table = LtcTable::embedded();
-    for i in [8, 16, 31] {
+    // Smallest and largest r / R at nodes with R > 1e-3, and mu > 0.
+    let ratios = |i: usize| {
         let solution = solve(i);
-        for j in 1..NODES {
-            let (r, albedo) = (table.cell(i, j)[2], solution.albedo(j as f64 / 31.0));
-            // What the albedo's curvature between two nodes asks for.
-            assert!(albedo < 0.01 || (r / albedo - 1.0).abs() < 0.05, "node ({i}, {j}): {r}, {albedo}");
-        }
+        let pairs = (1..NODES).map(|j| (table.cell(i, j)[2], solution.albedo(j as f64 / 31.0)));
+        let ratios = pairs.filter(|(_, albedo)| *albedo > DIM).map(|(r, albedo)| r / albedo);
+        ratios.fold((f64::INFINITY, 0.0_f64), |(least, most), ratio| (least.min(ratio), most.max(ratio)))
+    };
+    for (i, least) in [(2, 0.15), (3, 0.4), (4, 0.6), (5, 0.75), (6, 0.8), (7, 0.85), (16, 0.94), (31, 0.99)] {
+        let (low, high) = ratios(i);
+        assert!(low > least && high < 1.15, "alpha {i}/31: r / R from {low} to {high}");
+        assert!(i > 5 || low < least + 0.12, "alpha {i}/31: r is not bent for what lies between: {low}");
     }
     let (r, albedo) = (table.cell(1, 0)[2], solve(1).albedo(0.0));
     assert!(r < 0.2 * albedo, "at the corner {r} is not {albedo}");

@@ -31,7 +31,7 @@ fn the_shipped_table_is_what_the_code_makes() {
     assert_eq!((calls.into_inner(), most.into_inner()), (SLAB_SIDE + 12, SLAB_SIDE + 12));
     assert!(shipped.half_steps(&made) <= 1, "velour fit makes another table");
     let velour::fit::Errors { mean, median, max } = report.lobe;
-    let figure = format!("mean {mean:.4}, median {median:.4}, max {max:.4}");
+    let figure = format!("{} lobes off the nodes | mean {mean:.4}, median {median:.4}, max {max:.4}", report.cells);
     assert!(include_str!("../../README.md").contains(&figure), "README.md does not say '{figure}'");
     // Mean .0019, greatest .0074 of a lobe; R .0014 and .0086.
     assert!(report.cells > 200 && report.lobe.mean < 0.0022 && report.lobe.max < 0.009, "{report}");
@@ -43,6 +43,8 @@ fn one_thread_makes_the_same_layer_and_another_alpha_is_told() {
     let shipped = SlabTable::embedded();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of threads");
     for k in [9, 26] {
+        // The same bits as among the many on several threads.
+        assert_eq!(pool.install(|| layer(slab_alpha(k))), layer(slab_alpha(k)));
         assert!(apart(&shipped, k, &pool.install(|| layer(slab_alpha(k)))) <= 1, "alpha's node {k}");
         assert!(apart(&shipped, k, &layer(slab_alpha(k) * 0.999)) > 1, "another alpha than that of node {k}");
     }

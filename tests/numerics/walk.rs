@@ -17,9 +17,9 @@ fn binomial_error(share: f64, paths: u64) -> f64 {
 fn every_path_leaves_once() {
     for (alpha, mu) in [(1.0, 1.0), (0.5, 0.5), (0.2, 0.01), (1.0 / 31.0, 1e-3), (1.0 / 31.0, 1.0)] {
         let analog = walk(alpha, mu, FirstFlight::Analog, 20_001, 1).run();
-        assert_eq!(analog.reflected() + analog.transmitted + analog.unscattered, 20_001, "alpha {alpha}, mu {mu}");
+        assert_eq!(analog.reflected() + analog.transmitted() + analog.unscattered, 20_001, "alpha {alpha}, mu {mu}");
         let scattered = walk(alpha, mu, FirstFlight::Scattered, 20_001, 1).run();
-        assert_eq!(scattered.reflected() + scattered.transmitted, 20_001, "alpha {alpha}, mu {mu}");
+        assert_eq!(scattered.reflected() + scattered.transmitted(), 20_001, "alpha {alpha}, mu {mu}");
     }
 }
 

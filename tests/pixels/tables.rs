@@ -21,8 +21,12 @@ fn a_fitted_table_is_what_its_check_expects() {
     let mut cells = table.cells().to_vec();
     cells[9][2] += 0.01;
     std::fs::write(&path, LtcTable::new([4, 4], cells).to_csv(&[])).unwrap();
+    let good = std::fs::read(bench.path("new/tables/sheen_ltc.dds")).unwrap();
+    std::fs::write(bench.path("new/tables/sheen_ltc.dds"), LtcTable::load(&path).unwrap().to_dds()).unwrap();
     bench.refused(&mut bench.command(check), 1, "half-float steps off");
+    std::fs::write(bench.path("new/tables/sheen_ltc.dds"), good).unwrap();
     bench.refused(&mut bench.command(&check.replace('4', "5")), 1, "another size");
+    bench.refused(&mut bench.command("fit --only slab --resolution 16"), 2, "leave it out");
 }
 
 #[test]
@@ -44,6 +48,11 @@ fn the_slabs_table_is_checked() {
 fn what_cannot_be_read_or_written_is_said_before_the_work() {
     let bench = Bench::new();
     bench.refused(&mut bench.command("fit --check -o nowhere"), 2, "nowhere/sheen_ltc.csv: cannot be read");
+    let shipped = LtcTable::embedded();
+    bench.put("sheen_ltc.csv", shipped.to_csv(&[]));
+    bench.put("sheen_ltc.dds", shipped.to_dds());
+    // The second table's file is looked at before the first is made.
+    bench.refused(&mut bench.command("fit --check -o ."), 2, "sheen_slab.dds: cannot be read");
     bench.put("sheen_slab.dds", "no texture");
     bench.refused(&mut bench.command("fit --check --only slab -o ."), 2, "sheen_slab.dds: no .dds texture");
     bench.refused(&mut bench.command("fit -o scene.glb"), 2, "scene.glb: the folder cannot be made");

@@ -34,9 +34,9 @@ impl Layer {
         let largest = loss.diagonal().max();
         let doublings = (largest / THIN).log2().ceil().max(0.0) as i32;
         let mut layer = Self::thin(loss, gain, 0.5_f64.powi(doublings));
-        let mut room = Room::new(loss.nrows());
+        let mut scratch = Scratch::new(loss.nrows());
         for _ in 0..doublings {
-            layer.double(&mut room);
+            layer.double(&mut scratch);
         }
         layer
     }
@@ -56,9 +56,9 @@ impl Layer {
 
     /// Puts the layer on another one like it. With T = 1 + t and (1 - R R)^-1 T = T + Z, the rules above read
     /// t' = 2 t + t t + T Z and R' = R + T R (T + Z).
-    fn double(&mut self, room: &mut Room) {
+    fn double(&mut self, scratch: &mut Scratch) {
         let Self { reflected, change } = self;
-        let Room { through, inner, power, rest, spare } = room;
+        let Scratch { through, inner, power, rest, spare } = scratch;
         through.copy_from(change);
         for i in 0..through.nrows() {
             through[(i, i)] += 1.0;
@@ -87,7 +87,7 @@ impl Layer {
 }
 
 /// Matrices to work in.
-struct Room {
+struct Scratch {
     through: DMatrix<f64>,
     inner: DMatrix<f64>,
     power: DMatrix<f64>,
@@ -95,7 +95,7 @@ struct Room {
     spare: DMatrix<f64>,
 }
 
-impl Room {
+impl Scratch {
     fn new(n: usize) -> Self {
         let zero = || DMatrix::zeros(n, n);
         Self { through: zero(), inner: zero(), power: zero(), rest: zero(), spare: zero() }

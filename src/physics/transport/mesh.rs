@@ -166,6 +166,7 @@ fn edges(sigma: f64, refinement: f64) -> (Vec<f64>, f64) {
     let mut wide_from = FRAC_PI_2;
     let end = top[top.len() - 1];
     let mut at = edges[edges.len() - 1];
+    assert!(at < end, "the first panel is inside: sigma {sigma}, refinement {refinement}");
     loop {
         if at > grow_from {
             wide_from = wide_from.min(at);

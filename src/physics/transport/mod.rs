@@ -22,7 +22,7 @@
 //! 4. **What the matrices say.** Entry (i, j) of R is exact in mu_i and an average over mu_o against the polynomial of node j: sums over j
 //!    are accurate to the mesh's order, and with them the albedo. Where panels are wider than the kernel's peak, single entries are
 //!    not: a panel's polynomials end abruptly, and the peak blurs these ends. There (the wide panels) entries are replaced by their best
-//!    approximation by polynomials of degree [`SMOOTH_DEGREE`] in the logarithm of the angle, which have no ends.
+//!    approximation by polynomials of degree 10 in the logarithm of the angle, which have no ends (`smooth`).
 //! 5. **Single scattering** is known exactly, and is taken out of R in the same discrete form in which it is in there. The rest, divided
 //!    by mode 0 of single scattering, varies slowly in both cosines: it is interpolated. Of the entries (i, j) and (j, i), which are equal
 //!    but for the error of (4), both places hold the one whose exact cosine is the larger: reciprocity holds to round-off.
@@ -34,9 +34,7 @@ mod mesh;
 mod rates;
 mod smooth;
 
-pub use mesh::PER_PANEL;
 pub use rates::MOST_MODES;
-pub use smooth::SMOOTH_DEGREE;
 
 use super::modes::Elevation;
 use super::slab::Slab;
@@ -56,7 +54,7 @@ pub const LEAST_ALPHA: f64 = 5e-4;
 pub struct Resolution {
     /// Azimuthal modes, in \[1, [`MOST_MODES`]\]. One gives albedos; four leave 3e-4 of a lobe or less (relative L2, alpha >= 2/31).
     pub modes: usize,
-    /// Panels are so many times narrower than usual; > 0. The solver's time grows with its cube.
+    /// Panels are so many times narrower than usual; in \[0.25, 16\]. The solver's time grows with its cube.
     pub refinement: f64,
     /// A cosine in \[0, 1\] around which panels are narrow enough for the transmitted lobe of light that comes from there: a sharp ridge
     /// along its own elevation. Without it that ridge is blurred to the panel's width; reflected lobes don't need it.
@@ -76,8 +74,6 @@ pub struct Transport {
     mesh: Mesh,
     /// At the nodes: albedo over that of single scattering.
     albedo: Vec<f64>,
-    /// At the nodes: the share that leaves below after scattering.
-    transmittance: Vec<f64>,
     /// Per mode, over pairs of nodes: multiple scattering over mode 0 of single scattering.
     reflected: Vec<DMatrix<f64>>,
     /// Per mode, over pairs of nodes: multiple scattering's transmitted radiance per unit of incident flux.
@@ -88,17 +84,17 @@ impl Transport {
     /// Solves the slab, of alpha >= [`LEAST_ALPHA`]. Takes some milliseconds a mode for alpha > .2, a tenth of a second at 1/31, 20 s at
     /// .001. Meshes are made for a thickness of 1; up to 100, two of them agree to 1e-9 in R (alpha = .5).
     ///
-    /// Against finer meshes, R is off by 2e-4 of itself or less and lobes (relative L2) by 5e-4 for alpha >= 2/31.
+    /// Against finer meshes, R is off by 2e-4 of itself or less, and lobes (relative L2) by 3e-4 for alpha >= 2/31 and mu >= 1e-3. At the
+    /// horizon itself lobes are off by 5e-3: where both cosines go to 0 they have no common limit.
     pub fn new(slab: Slab, resolution: Resolution) -> Self {
         let Resolution { modes, refinement, ridge } = resolution;
         let alpha = slab.medium().sigma().sqrt();
         assert!(alpha >= LEAST_ALPHA, "alpha is at least {LEAST_ALPHA} to be solved: {alpha}");
-        assert!(refinement > 0.0 && refinement <= 16.0, "refinement is in (0, 16]: {refinement}");
+        assert!((0.25..=16.0).contains(&refinement), "refinement is in [0.25, 16]: {refinement}");
         assert!(ridge.is_none_or(|mu| (0.0..=1.0).contains(&mu)), "a ridge's cosine is in [0, 1]: {ridge:?}");
         let mesh = Mesh::new(slab.medium().sigma(), refinement, ridge.map(f64::asin));
         let rates = rates(slab.medium(), &mesh, modes);
-        let [albedo, transmittance] = [vec![], vec![]];
-        let mut solution = Self { slab, mesh, albedo, transmittance, reflected: vec![], transmitted: vec![] };
+        let mut solution = Self { slab, mesh, albedo: vec![], reflected: vec![], transmitted: vec![] };
         for (mode, rates) in rates.iter().enumerate() {
             solution.solve(mode, rates);
         }
@@ -108,14 +104,8 @@ impl Transport {
     fn solve(&mut self, mode: usize, rates: &Rates) {
         let layer = layer(&self.slab, &self.mesh, mode, rates);
         if mode == 0 {
-            let rows = |matrix: &DMatrix<f64>| -> Vec<f64> { matrix.row_iter().map(|row| row.sum()).collect() };
-            let nodes = || self.mesh.nodes.iter();
-            let single = nodes().map(|node| self.slab.single_scattering_albedo(node.mu));
-            self.albedo = rows(&layer.reflected).into_iter().zip(single).map(|(all, single)| all / single).collect();
-            let unscattered = nodes().map(|node| self.slab.unscattered(node.mu));
-            let scattered =
-                rows(&layer.change).into_iter().zip(unscattered).map(|(change, direct)| 1.0 + change - direct);
-            self.transmittance = scattered.collect();
+            let single = self.mesh.nodes.iter().map(|node| self.slab.single_scattering_albedo(node.mu));
+            self.albedo = layer.reflected.row_iter().zip(single).map(|(row, single)| row.sum() / single).collect();
         }
         let (slab, mesh) = (&self.slab, &self.mesh);
         let n = mesh.len();
@@ -129,10 +119,15 @@ impl Transport {
         self.reflected.push(smooth::symmetric(mesh, ratio));
         self.transmitted.push(DMatrix::from_fn(n, n, |i, j| {
             let [one, other] = [i, j].map(|k| mesh.nodes[k]);
-            let scattered = if i == j { 1.0 - slab.unscattered(one.mu) } else { 0.0 };
+            let scattered = if i == j { -(-slab.depth(one.mu)).exp_m1() } else { 0.0 };
             let single = rates.onwards[(i, j)] * slab.transmitted_once(one, other) * other.mu;
             (layer.change[(i, j)] + scattered - single) * spread(j)
         }));
+    }
+
+    /// How many azimuthal modes are known.
+    pub fn modes(&self) -> usize {
+        self.reflected.len()
     }
 
     pub fn slab(&self) -> &Slab {
@@ -145,11 +140,10 @@ impl Transport {
         self.mesh.stencil(mu).interpolate(|node| self.albedo[node]) * self.slab.single_scattering_albedo(mu)
     }
 
-    /// The share of light of cosine `mu` in \[0, 1\] that leaves below after one or more scatterings. With [`Self::albedo`] and
-    /// [`Slab::unscattered`] it makes 1.
+    /// The share of light of cosine `mu` in \[0, 1\] that leaves below after one or more scatterings: what is neither unscattered nor
+    /// reflected, as nothing is absorbed.
     pub fn transmittance(&self, mu: f64) -> f64 {
-        check(mu);
-        self.mesh.stencil(mu).interpolate(|node| self.transmittance[node])
+        -(-self.slab.depth(mu)).exp_m1() - self.albedo(mu)
     }
 
     /// The reflected lobe f_r(wi, wo) mu_o, per steradian, all orders. `wi` and `wo` are unit, z >= 0, pointing away.

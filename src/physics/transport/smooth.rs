@@ -4,7 +4,7 @@ use super::mesh::Mesh;
 use nalgebra::DMatrix;
 
 /// Degree of the polynomials that stand for reflected light in the wide panels.
-pub const SMOOTH_DEGREE: usize = 10;
+const SMOOTH_DEGREE: usize = 10;
 
 /// The matrix that replaces values at the mesh's wide nodes by their best approximation by polynomials in the logarithm of the angle, in
 /// the norm of d ln(angle); none where the wide panels are too few to need it.
