@@ -1,9 +1,19 @@
 //! Elevations of a lobe, sampled from a tabulated density.
 //!
-//! For each of a few warped cosines of `wi` a row holds the lobe's density over the warped root y of the cosine of `wo`
-//! ([`SlabWarp::root`]), linear between nodes. In y it ends at the horizon neither at 0 nor at infinity for grazing `wi`, where lobes don't vanish,
-//! and as a straight line for others. Between two rows the density is their mixture: one of them is drawn.
+//! For each of a few warped cosines of `wi` a row holds the lobe's density p over the warped root y of the cosine of `wo`
+//! ([`SlabWarp::root`]). In y it ends at the horizon neither at 0 nor at infinity for grazing `wi`, where lobes don't vanish, and as a
+//! straight line for others. Between two rows the density is linear, and so is its integral, which is inverted without drawing a row.
+//!
+//! A row is linear between nodes in y only in the cell at the horizon: beyond, sqrt(t) p is linear in the place t = y^(2/3), so that
+//! what is drawn is the place itself, which the table's lookup waits for, without a root. With x running from 0 to 1 over a cell
+//! (x = y / y_1 in the first, x = (NODES - 1) t - k in the others) and t_1 the first cell's end,
+//!
+//! ```text
+//! p = v(x) / sqrt(max(t, t_1)), v linear,   p dy = v dx / (NODES - 1) times 1 in the first cell, 3/2 in the others,
+//! y p = v times x t_1 in the first cell, t in the others: the density over ln y, which needs no root either.
+//! ```
 
+use crate::math::cube_root;
 use crate::table::SlabWarp;
 
 /// Nodes of a row, at the places k / (n - 1) along the table's axis: twice as fine as the table.
@@ -18,98 +28,135 @@ const LEAST: f64 = 1e-3;
 /// Parts of \[0, 1) for which a row remembers where to search.
 const GUIDES: usize = 64;
 
+/// Cells between nodes.
+const CELLS: f64 = (NODES - 1) as f64;
+
 /// Densities of the elevation of `wo` given that of `wi`, of one alpha.
 #[derive(Clone, Debug)]
 pub struct Elevations {
-    /// y of the nodes.
-    roots: [f64; NODES],
-    /// One over their distances.
-    inverse_widths: [f64; NODES - 1],
-    /// Density over y at the nodes, row by row; each row's integral is 1.
-    densities: Vec<f64>,
+    /// v at the nodes, row by row; each row's integral of p over y is 1.
+    values: Vec<f64>,
     /// The integral from 0 to each node.
     cumulated: Vec<f64>,
     /// For each row, the last node whose integral is at most k / GUIDES: where the search for a number beyond that begins.
     guides: Vec<[u8; GUIDES]>,
 }
 
+/// An elevation that is drawn.
+pub struct Drawn {
+    /// See [`SlabWarp::place`].
+    pub place: f64,
+    /// See [`SlabWarp::w`].
+    pub w: f64,
+    /// Density over ln y.
+    pub log_density: f64,
+}
+
 impl Elevations {
     /// From a density over y given the roots of `wi` and `wo`, above 0 somewhere and of any scale.
     pub fn new(density: impl Fn(f64, f64) -> f64) -> Self {
-        let root = |k: usize, n: usize| SlabWarp::root_from_place(k as f64 / (n - 1) as f64);
-        let roots: [f64; NODES] = std::array::from_fn(|k| root(k, NODES));
-        let inverse_widths = std::array::from_fn(|k| 1.0 / (roots[k + 1] - roots[k]));
-        let (mut densities, mut cumulated, mut guides) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut values, mut cumulated, mut guides) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..ROWS {
-            let mut values: Vec<f64> = roots.iter().map(|&other| density(root(row, ROWS), other)).collect();
-            let whole = integrals(&roots, &values)[NODES - 1];
+            let from = SlabWarp::root_from_place(row as f64 / (ROWS - 1) as f64);
+            let place = |k: usize| k as f64 / CELLS;
+            let densities: [f64; NODES] = std::array::from_fn(|k| density(from, SlabWarp::root_from_place(place(k))));
+            let stretched = |least: f64| std::array::from_fn(|k| densities[k].max(least) * stretch(place(k)));
+            let whole = integrals(&stretched(0.0))[NODES - 1];
             assert!(whole > 0.0 && whole.is_finite(), "row {row} of a density has the integral {whole}");
-            values.iter_mut().for_each(|value| *value = value.max(LEAST * whole));
-            let mut sums = integrals(&roots, &values);
+            let row = stretched(LEAST * whole);
+            let sums = integrals(&row);
             let whole = sums[NODES - 1];
-            sums.iter_mut().for_each(|sum| *sum /= whole);
-            densities.extend(values.iter().map(|value| value / whole));
+            let sums = sums.map(|sum| sum / whole);
+            values.extend(row.map(|value| value / whole));
             guides.push(std::array::from_fn(|k| last_at_most(&sums, k as f64 / GUIDES as f64) as u8));
             cumulated.extend(sums);
         }
-        Self { roots, inverse_widths, densities, cumulated, guides }
+        Self { values, cumulated, guides }
     }
 
-    /// The density over y at `root`, whose place along the axis is `at`, for `wi` at the place `from`.
+    /// The density over ln y at the place `at`, for `wi` at the place `from`.
     #[inline]
-    pub fn density(&self, from: f64, at: f64, root: f64) -> f64 {
-        let (row, share) = row(from);
-        let k = ((at * (NODES - 1) as f64) as usize).min(NODES - 2);
-        let fraction = (root - self.roots[k]) * self.inverse_widths[k];
-        let of_row = |row: usize| {
-            let first = row * NODES + k;
-            self.densities[first] + fraction * (self.densities[first + 1] - self.densities[first])
-        };
-        ((1.0 - share) * of_row(row) + share * of_row(row + 1)).max(0.0)
+    pub fn log_density(&self, from: f64, at: f64) -> f64 {
+        let row = Row::at(from);
+        let cell = at * CELLS;
+        let k = (cell as usize).min(NODES - 2);
+        let x = if k == 0 { SlabWarp::root_from_place(cell) } else { cell - k as f64 };
+        let [low, high] = [k, k + 1].map(|k| row.between(&self.values, k));
+        (low + x * (high - low)) * if k == 0 { x / CELLS } else { at }
     }
 
-    /// A root of that density from a uniform number in \[0, 1).
+    /// An elevation from a uniform number in \[0, 1), for `wi` at the place `from`.
     #[inline]
-    pub fn sample(&self, from: f64, uniform: f64) -> f64 {
-        let (row, share) = row(from);
-        // What is left of the number after the choice of a row is uniform again.
-        let (row, uniform) =
-            if uniform < share { (row + 1, uniform / share) } else { (row, (uniform - share) / (1.0 - share)) };
-        let cumulated = &self.cumulated[row * NODES..(row + 1) * NODES];
-        let mut k = usize::from(self.guides[row][((uniform * GUIDES as f64) as usize).min(GUIDES - 1)]);
-        while k + 2 < NODES && cumulated[k + 1] <= uniform {
+    pub fn sample(&self, from: f64, uniform: f64) -> Drawn {
+        let row = Row::at(from);
+        let part = ((uniform * GUIDES as f64) as usize).min(GUIDES - 1);
+        let mut k = usize::from(self.guides[row.first][part].min(self.guides[row.first + 1][part]));
+        while k + 2 < NODES && row.between(&self.cumulated, k + 1) <= uniform {
             k += 1;
         }
-        let width = self.roots[k + 1] - self.roots[k];
-        let [low, high] = [0, 1].map(|step| self.densities[row * NODES + k + step]);
+        let [low, high] = [k, k + 1].map(|k| row.between(&self.values, k));
         // Of width (low x + (high - low) x^2 / 2) = rest, the root that does not cancel.
-        let rest = (uniform - cumulated[k]) * self.inverse_widths[k];
+        let rest = (uniform - row.between(&self.cumulated, k)) * if k == 0 { 1.0 / width(0) } else { 1.0 / width(1) };
         let below = low + (low * low + 2.0 * (high - low) * rest).max(0.0).sqrt();
-        let x = if below > 0.0 { (2.0 * rest / below).min(1.0) } else { 0.0 };
-        self.roots[k] + width * x
+        let x = (2.0 * rest / below).clamp(0.0, 1.0);
+        let value = low + x * (high - low);
+        if k == 0 {
+            let w = x * x / (CELLS * CELLS * CELLS);
+            Drawn { place: cube_root(w), w, log_density: value * x / CELLS }
+        } else {
+            let place = (k as f64 + x) * (1.0 / CELLS);
+            Drawn { place, w: place * place * place, log_density: value * place }
+        }
     }
 }
 
-/// The integrals from 0 to each node of what is linear between values there.
-fn integrals(roots: &[f64], values: &[f64]) -> Vec<f64> {
-    let part = |k: usize| if k == 0 { 0.0 } else { (roots[k] - roots[k - 1]) * (values[k] + values[k - 1]) / 2.0 };
-    let mut sum = 0.0;
-    let mut next = |k: usize| {
-        sum += part(k);
-        sum
-    };
-    (0..values.len()).map(&mut next).collect()
+/// What is between two rows.
+#[derive(Clone, Copy)]
+struct Row {
+    /// The row below.
+    first: usize,
+    /// The next one's share.
+    share: f64,
+}
+
+impl Row {
+    /// Where a place is; one a little past 1 is taken for 1, so that densities stay above 0.
+    #[inline]
+    fn at(place: f64) -> Self {
+        let x = place.min(1.0) * (ROWS - 1) as f64;
+        let first = (x as usize).min(ROWS - 2);
+        Self { first, share: x - first as f64 }
+    }
+
+    /// A value at node `k`, of a table that holds them row by row.
+    #[inline]
+    fn between(self, table: &[f64], k: usize) -> f64 {
+        let at = self.first * NODES + k;
+        (1.0 - self.share) * table[at] + self.share * table[at + NODES]
+    }
+}
+
+/// sqrt(max(t, t_1)) at the place t.
+fn stretch(place: f64) -> f64 {
+    place.max(1.0 / CELLS).sqrt()
+}
+
+/// p dy of a cell over v dx.
+#[inline]
+fn width(k: usize) -> f64 {
+    if k == 0 { 1.0 / CELLS } else { 1.5 / CELLS }
+}
+
+/// The integrals of p from 0 to each node.
+fn integrals(values: &[f64; NODES]) -> [f64; NODES] {
+    let mut sums = [0.0; NODES];
+    for k in 1..NODES {
+        sums[k] = sums[k - 1] + width(k - 1) * (values[k - 1] + values[k]) / 2.0;
+    }
+    sums
 }
 
 /// The last node but one, or an earlier one, whose integral is at most `value`.
 fn last_at_most(sums: &[f64], value: f64) -> usize {
     sums.partition_point(|sum| *sum <= value).clamp(1, NODES - 1) - 1
-}
-
-/// The row at or below a place in \[0, 1\], and the next one's share.
-#[inline]
-fn row(place: f64) -> (usize, f64) {
-    let x = place * (ROWS - 1) as f64;
-    let row = (x as usize).min(ROWS - 2);
-    (row, x - row as f64)
 }

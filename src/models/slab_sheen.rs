@@ -1,10 +1,10 @@
 //! The sheen as the slab has it.
 
-use super::elevations::Elevations;
+use super::elevations::{Drawn, Elevations};
 use super::{Bsdf, Sample, check_alpha, check_mu, check_uniforms, cosine};
-use crate::math::cube_root;
 use crate::math::frame::AzimuthFrame;
 use crate::math::quadrature::gauss_legendre;
+use crate::math::{cube_root, near_cube_root};
 use crate::physics::modes::Elevation;
 use crate::physics::slab::Slab;
 use crate::table::{SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp};
@@ -66,11 +66,11 @@ impl SlabSheen {
     fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(&Lobe, Meeting)> {
         let (mu_i, mu_o) = (cosine(wi), cosine(wo));
         let lobe = self.lobe.as_ref()?;
-        (mu_i >= 0.0 && mu_o > 0.0).then(|| {
-            let warp = lobe.slice.warp();
-            let (one, other) = (Place::of_cosine(warp, mu_i), Place::of_cosine(warp, mu_o));
-            (lobe, Meeting::new(&lobe.slab, &lobe.slice, one, other))
-        })
+        if mu_i < 0.0 || mu_o <= 0.0 {
+            return None;
+        }
+        let (one, other) = (Place::of_cosine(lobe.slice.warp(), mu_i), Place::of_cosine(lobe.slice.warp(), mu_o));
+        Some((lobe, Meeting::new(&lobe.slab, &lobe.slice, one, other)))
     }
 }
 
@@ -83,19 +83,25 @@ impl Bsdf for SlabSheen {
         check_uniforms(uniforms);
         let mu_i = cosine(wi);
         let lobe = self.lobe.as_ref().filter(|_| mu_i >= 0.0)?;
+        // What waits for nothing comes first: it is done while the rest, a long chain of roots and divisions, waits.
+        let frame = AzimuthFrame::of(wi);
+        let tangent = WrappedCauchy::tangent(uniforms[1]);
         let warp = lobe.slice.warp();
         let one = Place::of_cosine(warp, mu_i);
-        let other = Place::of_root(warp, lobe.elevations.sample(one.at, uniforms[0]));
-        let Elevation { mu: mu_o, s } = other.elevation;
+        let Drawn { place, w, log_density } = lobe.elevations.sample(one.near, uniforms[0]);
+        let (mu_o, log_slope) = warp.mu_and_log_slope(w);
         if mu_o == 0.0 {
             return None;
         }
+        let other = Place { elevation: Elevation::from_cosine(mu_o), at: place, near: place };
         let meeting = Meeting::new(&lobe.slab, &lobe.slice, one, other);
         let azimuth = meeting.azimuth();
-        let (cos_phi, sin_phi) = azimuth.sample(uniforms[1]);
-        let wo = AzimuthFrame::of(wi).outside(DVec3::new(s * cos_phi, s * sin_phi, mu_o));
-        let pdf = lobe.elevation_pdf(&meeting) * azimuth.pdf(cos_phi);
-        Some(Sample { wo, weight: meeting.value(&lobe.slab, wi, wo) / pdf, pdf })
+        let Turn { cos, sin, inverse_pdf } = azimuth.turn(tangent);
+        let s = other.elevation.s;
+        let wo = frame.outside(DVec3::new(s * cos, s * sin, mu_o));
+        let elevation_pdf = log_density * log_slope;
+        let weight = meeting.value(&lobe.slab, wi, wo) * (inverse_pdf / elevation_pdf);
+        Some(Sample { wo, weight, pdf: elevation_pdf / inverse_pdf })
     }
 
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
@@ -127,7 +133,7 @@ impl Lobe {
     /// Density with which the elevation of `wo` is sampled, per unit of its cosine.
     #[inline]
     fn elevation_pdf(&self, Meeting { one, other, .. }: &Meeting) -> f64 {
-        self.elevations.density(one.at, other.at, other.w.sqrt()) * self.slice.warp().root_slope(other.elevation.mu)
+        self.elevations.log_density(one.near, other.at) * self.slice.warp().log_slope(other.elevation.mu)
     }
 
     fn albedo(&self, mu: f64) -> f64 {
@@ -166,23 +172,23 @@ fn log_albedos(density: impl Fn(f64, f64) -> f64) -> [f64; ALBEDOS] {
 #[derive(Clone, Copy)]
 struct Place {
     elevation: Elevation,
-    /// See [`SlabWarp::w`].
-    w: f64,
     /// See [`SlabWarp::place`].
     at: f64,
+    /// The same to 1e-4: enough to choose a density.
+    near: f64,
 }
 
 impl Place {
     #[inline]
     fn of_cosine(warp: &SlabWarp, mu: f64) -> Self {
         let w = warp.w(mu);
-        Self { elevation: Elevation::from_cosine(mu), w, at: cube_root(w) }
+        Self { elevation: Elevation::from_cosine(mu), at: cube_root(w), near: near_cube_root(w) }
     }
 
     #[inline]
     fn of_root(warp: &SlabWarp, root: f64) -> Self {
-        let w = root * root;
-        Self { elevation: Elevation::from_cosine(warp.mu(root)), w, at: cube_root(w) }
+        let at = cube_root(root * root);
+        Self { elevation: Elevation::from_cosine(warp.mu(root)), at, near: at }
     }
 }
 
@@ -229,9 +235,10 @@ impl Meeting {
     #[inline]
     fn azimuth(&self) -> WrappedCauchy {
         let [mean, first] = self.kernel;
-        let ratio = (first + mean * self.modes.first * self.across) / (mean * self.modes.growth);
+        let whole = mean * self.modes.growth;
         // Of the angle from wi, where the modes' is the one from straight on.
-        WrappedCauchy { g: -(FIRST_MODE_SHARE * ratio).clamp(-0.9, 0.9) }
+        let first = -FIRST_MODE_SHARE * (first + mean * self.modes.first * self.across);
+        WrappedCauchy { mean: whole, first: first.clamp(-0.9 * whole, 0.9 * whole) }
     }
 
     /// Cosine of the azimuth from `wi`; anything where it has none.
@@ -243,22 +250,45 @@ impl Meeting {
 
 /// The density (1 - g^2) / (2 pi (1 + g^2 - 2 g cos(phi))), whose first mode is g of its mean; |g| < 1.
 struct WrappedCauchy {
-    g: f64,
+    /// Of any scale above 0.
+    mean: f64,
+    /// g of that.
+    first: f64,
 }
 
 impl WrappedCauchy {
+    #[inline]
     fn pdf(&self, cos_phi: f64) -> f64 {
-        let g = self.g;
-        (1.0 - g * g) / (2.0 * PI * (1.0 + g * g - 2.0 * g * cos_phi))
+        let Self { mean, first } = self;
+        (mean - first) * (mean + first) / (2.0 * PI * (mean * mean + first * first - 2.0 * mean * first * cos_phi))
     }
 
-    /// Cosine and sine of an angle: of a uniform one, the half's tangent is scaled.
-    fn sample(&self, uniform: f64) -> (f64, f64) {
-        let tangent = (1.0 - self.g) / (1.0 + self.g) * (PI * (uniform - 0.5)).tan();
-        let square = tangent * tangent;
-        let inverse = 1.0 / (1.0 + square);
-        ((1.0 - square) * inverse, 2.0 * tangent * inverse)
+    /// Of a uniform angle, the half's tangent.
+    #[inline]
+    fn tangent(uniform: f64) -> f64 {
+        (PI * (uniform - 0.5)).tan()
     }
+
+    /// The angle that one with such a tangent becomes: it is scaled by (1 - g) / (1 + g).
+    #[inline]
+    fn turn(&self, tangent: f64) -> Turn {
+        let (more, less) = (self.mean + self.first, self.mean - self.first);
+        let (along, across) = (more, less * tangent);
+        let inverse = 1.0 / (along * along + across * across);
+        Turn {
+            cos: (along * along - across * across) * inverse,
+            sin: 2.0 * along * across * inverse,
+            inverse_pdf: 2.0 * PI * more * less * (1.0 + tangent * tangent) * inverse,
+        }
+    }
+}
+
+/// A sampled angle.
+struct Turn {
+    cos: f64,
+    sin: f64,
+    /// One over its density.
+    inverse_pdf: f64,
 }
 
 /// c = s_i s_o cos(pi - phi).

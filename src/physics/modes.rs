@@ -22,20 +22,23 @@
 //! K_m = 1/(4 pi sigma) [ (m = 0) - 2 k r^m / W + k^2 r^m (A + m W) / W^3 ].
 //! ```
 //!
-//! Written so, terms cancel: for m = 0, f64 loses everything below alpha = 0.03. With d = W - k, which is
-//! (2 a k + (mu - mu')^2) / (W + k) because a^2 - b^2 = (mu - mu')^2, and with A - W = b r,
+//! Written so, terms cancel: for m = 0, f64 loses everything below alpha = 0.03. Of positive terms alone, without a case of their own for
+//! directions that keep their elevation (where W = 0), are
 //!
 //! ```text
-//! K_0 = 1/(4 pi sigma) (W d^2 + k^2 b r) / W^3,
-//! K_m = 1/(4 pi sigma) k r^m (k b r + W ((m - 1) k - 2 d)) / W^3,      m >= 1,
+//! step = |mu - mu'|,   C = (1 - sigma^2) / (2 sigma^2),   h = C step,   2 a = step^2 + s^2 + s'^2,   G = 1 + 2 a C,   V = sqrt(G + h^2),
+//! k = h step,          W = V step,                            A + W = a + step (h + V),
 //! ```
 //!
-//! a sum of positive terms for m = 0; and a - b = (mu - mu')^2 / (a + b), 2 a = (mu - mu')^2 + s^2 + s'^2 make the rest exact near the
-//! axis. Along directions that keep their elevation (W = 0) the kernel is 1/(4 pi sigma) for every phi.
+//! the second line because a^2 - b^2 = step^2. With f = k / W = h / V, e = 1 - f = G / (V (V + h)) and t = f b r / W, where A - W = b r,
+//!
+//! ```text
+//! K_0 = 1/(4 pi sigma) (e^2 + f t),
+//! K_m = 1/(4 pi sigma) f r^m (t + (m - 1) f - 2 e),      m >= 1.
+//! ```
 
 use super::sggx::Sggx;
-use crate::math::sine;
-use std::f64::consts::PI;
+use crate::math::sine_square;
 
 /// An angle to the horizon by its sine `mu`, the cosine to the fibres, and its cosine `s`, each to full relative precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,25 +47,29 @@ pub struct Elevation {
     pub mu: f64,
     /// Sine to the normal, in \[0, 1\].
     pub s: f64,
+    /// Its square.
+    pub s_square: f64,
 }
 
 impl Elevation {
     /// From the angle above the horizon in \[-pi/2, pi/2\].
     pub fn from_angle(angle: f64) -> Self {
         let (mu, s) = angle.sin_cos();
-        Self { mu, s: s.max(0.0) }
+        let s = s.max(0.0);
+        Self { mu, s, s_square: s * s }
     }
 
     /// From the cosine to the normal in \[-1, 1\].
     #[inline]
     pub fn from_cosine(mu: f64) -> Self {
-        Self { mu, s: sine(mu) }
+        let s_square = sine_square(mu);
+        Self { mu, s: s_square.sqrt(), s_square }
     }
 
     /// The mirrored one on the other side of the horizon.
     #[inline]
     pub fn opposite(self) -> Self {
-        Self { mu: -self.mu, s: self.s }
+        Self { mu: -self.mu, ..self }
     }
 }
 
@@ -71,37 +78,34 @@ impl Sggx {
     #[inline]
     pub fn extinction_at(&self, elevation: Elevation) -> f64 {
         let along = self.sigma() * elevation.mu;
-        (along * along + elevation.s * elevation.s).sqrt()
+        (along * along + elevation.s_square).sqrt()
     }
 
     /// The first modes `K_0`, `K_1`, ... of the kernel between two propagation directions, one for each place in `modes`; per length
     /// and steradian. Symmetric in its arguments. `K_0` to a relative 3e-15, the others to 1e-13 of `K_0`.
     #[inline]
     pub fn kernel_modes(&self, one: Elevation, other: Elevation, modes: &mut [f64]) {
-        let sigma = self.sigma();
-        let isotropic = 1.0 / (4.0 * PI * sigma);
-        let step = one.mu - other.mu;
-        let square = step * step;
-        let a = 0.5 * (square + one.s * one.s + other.s * other.s);
-        let b = one.s * other.s;
-        let k = (1.0 - sigma) * (1.0 + sigma) * square / (2.0 * sigma * sigma);
-        let big_a = a + k;
-        let a_minus_b = if a + b > 0.0 { square / (a + b) } else { 0.0 };
-        let w = ((a_minus_b + k) * (big_a + b)).sqrt();
-        if w == 0.0 {
-            modes.fill(0.0);
-            modes[0] = isotropic;
-            return;
-        }
-        let r = b / (big_a + w);
-        let d = (2.0 * a * k + square) / (w + k);
-        let scale = isotropic / (w * w * w);
-        let kbr = k * b * r;
-        modes[0] = scale * (w * d * d + k * kbr);
-        let mut power = k * scale;
+        let step = (one.mu - other.mu).abs();
+        let h = self.contrast() * step;
+        let two_a = step * step + one.s_square + other.s_square;
+        let g = 1.0 + self.contrast() * two_a;
+        let v = (g + h * h).sqrt();
+        // 0 where both directions are the axis; then b = 0 is what counts.
+        let a_plus_w = (0.5 * two_a + step * (h + v)).max(f64::MIN_POSITIVE);
+        // Of one division 1 / (V (V + h)) and 1 / (A + W).
+        let inverse = 1.0 / (v * (v + h) * a_plus_w);
+        let (inverse_square, inverse_a_plus_w) = (a_plus_w * inverse, v * (v + h) * inverse);
+        let (e, inverse_v) = (g * inverse_square, (v + h) * inverse_square);
+        let f = h * inverse_v;
+        // b r, by b^2 without a root; 1 / W times f is C / V^2.
+        let br = one.s_square * other.s_square * inverse_a_plus_w;
+        let t = self.contrast() * inverse_v * inverse_v * br;
+        modes[0] = self.straight_on() * (e * e + f * t);
+        let r = one.s * other.s * inverse_a_plus_w;
+        let mut power = self.straight_on() * f;
         for (m, mode) in modes.iter_mut().enumerate().skip(1) {
             power *= r;
-            *mode = power * (kbr + w * ((m as f64 - 1.0) * k - 2.0 * d));
+            *mode = power * (t + (m as f64 - 1.0) * f - 2.0 * e);
         }
     }
 }

@@ -9,19 +9,36 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sggx {
     sigma: f64,
+    /// (1 - sigma^2) / (2 sigma^2).
+    contrast: f64,
+    /// 1 / (4 pi sigma).
+    straight_on: f64,
 }
 
 impl Sggx {
     /// The medium of cross-section `sigma` in (0, 1].
     pub fn new(sigma: f64) -> Self {
         assert!(sigma > 0.0 && sigma <= 1.0, "sigma is in (0, 1]: {sigma}");
-        Self { sigma }
+        let contrast = (1.0 - sigma) * (1.0 + sigma) / (2.0 * sigma * sigma);
+        Self { sigma, contrast, straight_on: 1.0 / (4.0 * PI * sigma) }
     }
 
     /// The fibres' cross-section seen along their axis.
     #[inline]
     pub fn sigma(&self) -> f64 {
         self.sigma
+    }
+
+    /// (1 - sigma^2) / (2 sigma^2): 0 for the isotropic medium.
+    #[inline]
+    pub(super) fn contrast(&self) -> f64 {
+        self.contrast
+    }
+
+    /// The kernel's greatest value, 1 / (4 pi sigma), that of going straight on.
+    #[inline]
+    pub(super) fn straight_on(&self) -> f64 {
+        self.straight_on
     }
 
     /// Extinction per unit length along directions of cosine `mu` to the fibres: sqrt(w^T S w) (eq. 7 for unit density).
@@ -37,15 +54,9 @@ impl Sggx {
     ///
     /// Scaled so that the flakes' area projected along w is the extinction: its integral over the sphere is not 1.
     pub fn flake_density(&self, m_z: f64) -> f64 {
-        self.flake_density_at_square(m_z * m_z)
-    }
-
-    /// [`Self::flake_density`] from the square of `m_z`.
-    #[inline]
-    fn flake_density_at_square(&self, square: f64) -> f64 {
         let sigma_square = self.sigma * self.sigma;
         // m^T S^-1 m = (sigma^2 + (1 - sigma^2) m_z^2) / sigma^2 up to the order of its terms; no cancellation.
-        let form = sigma_square + (1.0 - self.sigma) * (1.0 + self.sigma) * square;
+        let form = sigma_square + (1.0 - self.sigma) * (1.0 + self.sigma) * m_z * m_z;
         self.sigma * sigma_square / (PI * form * form)
     }
 
@@ -56,9 +67,13 @@ impl Sggx {
     #[inline]
     pub fn kernel(&self, back: DVec3, out: DVec3) -> f64 {
         let sum = back + out;
-        let length_square = sum.length_squared();
-        let square = if length_square > 0.0 { sum.z * sum.z / length_square } else { 0.0 };
-        self.flake_density_at_square(square) / 4.0
+        let half_square = 0.5 * sum.length_squared();
+        if half_square == 0.0 {
+            return self.straight_on;
+        }
+        // [`Self::flake_density`] / 4 at wh_z^2 = sum_z^2 / (2 half_square), multiplied by that: of one division.
+        let ratio = half_square / (half_square + self.contrast * sum.z * sum.z);
+        self.straight_on * ratio * ratio
     }
 
     /// The phase function D(wh) / (4 extinction(back)) (eq. 17): its integral over `out` is 1.

@@ -82,8 +82,10 @@ impl Slab {
     #[inline]
     pub fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
         let (here, there) = (self.medium.extinction_at(one), self.medium.extinction_at(other));
-        let attenuated = one_minus_exp((here / one.mu + there / other.mu) * self.thickness);
-        attenuated / (here * other.mu + there * one.mu)
+        let sum = here * other.mu + there * one.mu;
+        // The minimum makes infinity of 0 / 0.
+        let depth = (sum / (one.mu * other.mu)).min(f64::INFINITY) * self.thickness;
+        one_minus_exp(depth) / sum
     }
 
     /// Mode 0, the mean over azimuths, of single scattering's f_r between two elevations in \[0, 1\]; exact, symmetric. Infinite where both

@@ -238,8 +238,21 @@ impl SlabWarp {
     /// The cosine whose [`Self::root`] is `root` in \[0, 1\].
     #[inline]
     pub fn mu(&self, root: f64) -> f64 {
-        let w = root * root;
-        (w * self.scale / (self.whole - w * self.slope)).sqrt().min(1.0)
+        self.mu_and_log_slope(root * root).0
+    }
+
+    /// The cosine whose [`Self::w`] is `w` in \[0, 1\], and [`Self::log_slope`] there.
+    #[inline]
+    pub fn mu_and_log_slope(&self, w: f64) -> (f64, f64) {
+        let below = self.whole - w * self.slope;
+        let mu = (w * self.scale / below).sqrt().min(1.0);
+        (mu, below / (mu * self.whole))
+    }
+
+    /// The derivative of the logarithm of [`Self::root`] by mu.
+    #[inline]
+    pub fn log_slope(&self, mu: f64) -> f64 {
+        self.scale / (mu * (self.scale + self.slope * mu * mu))
     }
 
     /// The root of a place along the axis, in \[0, 1\].
