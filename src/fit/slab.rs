@@ -54,7 +54,7 @@ pub fn slab(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, SlabReport) {
     let (done, all) = (AtomicUsize::new(0), SLAB_SIDE + REPORT_ALPHAS);
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
     let solve = |k: usize| {
-        let layer = layer(slab_alpha(k));
+        let layer = layer(slab_alpha(k as f64));
         step();
         layer
     };
@@ -109,9 +109,9 @@ fn fit_of_nodes(at: &[f64]) -> DMatrix<f64> {
 
 fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
     // From the first alpha in question on, spread over the cells up to the last; half a cell aside from the nodes.
-    let first = (0..SLAB_SIDE).find(|k| slab_alpha_between(*k) >= REPORT_LEAST_ALPHA).unwrap_or_default();
+    let first = (0..SLAB_SIDE).find(|k| slab_alpha(*k as f64 + 0.5) >= REPORT_LEAST_ALPHA).unwrap_or_default();
     let alphas = (0..REPORT_ALPHAS).map(|k| first + k * (SLAB_SIDE - 2 - first) / (REPORT_ALPHAS - 1));
-    let alphas: Vec<f64> = alphas.map(slab_alpha_between).collect();
+    let alphas: Vec<f64> = alphas.map(|k| slab_alpha(k as f64 + 0.5)).collect();
     let errors: Vec<Vec<[f64; 2]>> = alphas
         .par_iter()
         .map(|&alpha| {
@@ -123,11 +123,6 @@ fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
     let errors = errors.concat();
     let [lobe, albedo] = [0, 1].map(|which| Errors::new(errors.iter().map(|error| error[which]).collect()));
     SlabReport { lobe, albedo, cells: errors.len() }
-}
-
-/// The alpha in the middle between nodes k and k + 1, in units of the nodes.
-fn slab_alpha_between(k: usize) -> f64 {
-    ((slab_alpha(k).sqrt().sqrt() + slab_alpha(k + 1).sqrt().sqrt()) / 2.0).powi(4)
 }
 
 /// Relative errors of lobe and R at one alpha, for the bright ones of [`REPORT_MUS`] cosines.

@@ -11,6 +11,12 @@ pub fn sine(cosine: f64) -> f64 {
     sine_square(cosine).sqrt()
 }
 
+/// Panics unless `mu` is the cosine of an angle in \[0, pi/2\]: a number in \[0, 1\].
+#[inline]
+pub fn check_cosine(mu: f64) {
+    assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
+}
+
 /// The square of [`sine`].
 #[inline]
 pub fn sine_square(cosine: f64) -> f64 {

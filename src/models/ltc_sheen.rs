@@ -1,6 +1,7 @@
 //! The sheen of real-time rendering.
 
-use super::{Bsdf, Sample, check_alpha, check_mu, check_uniforms, cosine};
+use super::{Bsdf, Sample, check_alpha, check_uniforms, cosine};
+use crate::math::check_cosine;
 use crate::math::frame::AzimuthFrame;
 use crate::table::{Ltc, LtcTable, node};
 use glam::DVec3;
@@ -68,7 +69,7 @@ impl Bsdf for LtcSheen {
 
     /// r, linear between the table's nodes. 0 where a = 0: such a cell has no lobe.
     fn albedo(&self, mu: f64) -> f64 {
-        check_mu(mu);
+        check_cosine(mu);
         let (ltc, r) = self.lobe(mu);
         if ltc.a > 0.0 { r } else { 0.0 }
     }

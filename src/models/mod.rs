@@ -44,7 +44,7 @@ mod ltc_sheen;
 mod slab_sheen;
 
 pub use ltc_sheen::LtcSheen;
-pub use slab_sheen::{LEAST_ALPHA, SlabSheen};
+pub use slab_sheen::{EMPTY_BELOW_ALPHA, SlabSheen};
 
 use glam::DVec3;
 
@@ -95,8 +95,4 @@ fn check_uniforms(uniforms: [f64; 2]) {
 
 fn check_alpha(alpha: f64) {
     assert!((0.0..=1.0).contains(&alpha), "alpha is in [0, 1]: {alpha}");
-}
-
-fn check_mu(mu: f64) {
-    assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
 }

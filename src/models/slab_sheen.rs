@@ -1,10 +1,10 @@
 //! The sheen as the slab has it.
 
 use super::elevations::{Drawn, Elevations};
-use super::{Bsdf, Sample, check_alpha, check_mu, check_uniforms, cosine};
+use super::{Bsdf, Sample, check_alpha, check_uniforms, cosine};
 use crate::math::frame::AzimuthFrame;
 use crate::math::quadrature::gauss_legendre;
-use crate::math::{cube_root, near_cube_root};
+use crate::math::{check_cosine, cube_root, near_cube_root};
 use crate::physics::modes::Elevation;
 use crate::physics::slab::Slab;
 use crate::table::{SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 /// Alpha below which the slab is taken to be empty: only what is within 1e-4 of the horizon would notice.
-pub const LEAST_ALPHA: f64 = 1e-3;
+pub const EMPTY_BELOW_ALPHA: f64 = 1e-3;
 
 /// Share of the lobe's first azimuthal mode that the azimuth's density is given: more, and its peak is too sharp.
 const FIRST_MODE_SHARE: f64 = 0.75;
@@ -54,10 +54,10 @@ struct Lobe {
 }
 
 impl SlabSheen {
-    /// The sheen of roughness `alpha` in \[0, 1\]; takes a millisecond. Empty below [`LEAST_ALPHA`].
+    /// The sheen of roughness `alpha` in \[0, 1\]; takes a millisecond. Empty below [`EMPTY_BELOW_ALPHA`].
     pub fn new(table: &SlabTable, alpha: f64) -> Self {
         check_alpha(alpha);
-        let lobe = (alpha >= LEAST_ALPHA).then(|| Lobe::new(Slab::new(alpha), table.slice(alpha)));
+        let lobe = (alpha >= EMPTY_BELOW_ALPHA).then(|| Lobe::new(Slab::new(alpha), table.slice(alpha)));
         Self { lobe }
     }
 
@@ -111,7 +111,7 @@ impl Bsdf for SlabSheen {
     }
 
     fn albedo(&self, mu: f64) -> f64 {
-        check_mu(mu);
+        check_cosine(mu);
         self.lobe.as_ref().map_or(0.0, |lobe| lobe.albedo(mu))
     }
 }

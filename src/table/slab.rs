@@ -22,7 +22,7 @@
 //! 0.3% of a lobe (relative L2), three 0.05%.
 
 use super::{TableError, half_steps};
-use crate::math::cube_root;
+use crate::math::{check_cosine, cube_root};
 use half::f16;
 use std::fmt;
 use std::path::Path;
@@ -211,7 +211,7 @@ impl SlabWarp {
     /// w, in \[0, 1\], at a cosine in \[0, 1\].
     #[inline]
     pub fn w(&self, mu: f64) -> f64 {
-        assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
+        check_cosine(mu);
         let square = mu * mu;
         (square * self.whole / (self.scale + self.slope * square)).min(1.0)
     }
@@ -262,9 +262,9 @@ impl SlabWarp {
     }
 }
 
-/// Alpha of node `k`.
-pub fn slab_alpha(k: usize) -> f64 {
-    ((14.0 + k as f64) / 45.0).powi(4)
+/// Alpha at a texel coordinate, that of node k at k.
+pub fn slab_alpha(texel: f64) -> f64 {
+    ((14.0 + texel) / 45.0).powi(4)
 }
 
 /// Where `alpha` > 0 is in units of the nodes; below 0 before the first.

@@ -7,6 +7,7 @@ mod fit;
 mod hostile_table;
 mod medium;
 mod models;
+mod ranges;
 mod shipped_table;
 mod slab;
 mod slab_table;

@@ -211,3 +211,19 @@ fn along_one_elevation_the_kernel_is_the_same_for_every_azimuth() {
     Sggx::new(0.04).kernel_modes(node, node, &mut modes);
     assert_eq!(modes, [1.0 / (4.0 * PI * 0.04), 0.0, 0.0]);
 }
+
+#[test]
+fn kernel_modes_are_finite_however_near_elevations_are() {
+    for sigma in [1.0, 0.04, 1e-4] {
+        for (mu, other) in
+            [(0.0, 1e-105), (0.0, 1e-120), (0.0, 1e-160), (0.0, 0.0), (1.0, 1.0), (1.0, -1.0), (0.5, 0.5 + 1e-16)]
+        {
+            let mut modes = [f64::NAN; 4];
+            Sggx::new(sigma).kernel_modes(Elevation::from_cosine(mu), Elevation::from_cosine(other), &mut modes);
+            assert!(
+                modes.iter().all(|mode| mode.is_finite()) && modes[0] > 0.0,
+                "sigma {sigma}, {mu}, {other}: {modes:?}"
+            );
+        }
+    }
+}

@@ -44,9 +44,9 @@ fn one_thread_makes_the_same_layer_and_another_alpha_is_told() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of threads");
     for k in [9, 26] {
         // The same bits as among the many on several threads.
-        assert_eq!(pool.install(|| layer(slab_alpha(k))), layer(slab_alpha(k)));
-        assert!(apart(&shipped, k, &pool.install(|| layer(slab_alpha(k)))) <= 1, "alpha's node {k}");
-        assert!(apart(&shipped, k, &layer(slab_alpha(k) * 0.999)) > 1, "another alpha than that of node {k}");
+        assert_eq!(pool.install(|| layer(slab_alpha(k as f64))), layer(slab_alpha(k as f64)));
+        assert!(apart(&shipped, k, &pool.install(|| layer(slab_alpha(k as f64)))) <= 1, "alpha's node {k}");
+        assert!(apart(&shipped, k, &layer(slab_alpha(k as f64) * 0.999)) > 1, "another alpha than that of node {k}");
     }
 }
 
@@ -109,7 +109,7 @@ fn axes_run_there_and_back() {
 fn lookup_is_linear_along_each_axis_and_symmetric() {
     let table = SlabTable::embedded();
     for k in [0, 7, 31] {
-        let slice = table.slice(slab_alpha(k));
+        let slice = table.slice(slab_alpha(k as f64));
         for (i, j) in [(0, 0), (0, 31), (31, 31), (4, 19), (30, 1)] {
             let modes = slice.at([i, j].map(|node| node as f64 / 31.0));
             let [v0, v1, v2] = table.cell(k, i, j);

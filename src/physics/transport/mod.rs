@@ -38,7 +38,7 @@ pub use rates::MOST_MODES;
 
 use super::modes::Elevation;
 use super::slab::Slab;
-use crate::math::{fourier::cosine_sum, sine};
+use crate::math::{check_cosine, fourier::cosine_sum, sine};
 use doubling::Layer;
 use glam::DVec3;
 use mesh::{Mesh, Stencil};
@@ -136,7 +136,7 @@ impl Transport {
 
     /// The share R of light of cosine `mu` in \[0, 1\] that leaves by the top. At `mu` = 0 the limit, as far as the mesh reaches.
     pub fn albedo(&self, mu: f64) -> f64 {
-        check(mu);
+        check_cosine(mu);
         self.mesh.stencil(mu).interpolate(|node| self.albedo[node]) * self.slab.single_scattering_albedo(mu)
     }
 
@@ -163,8 +163,8 @@ impl Transport {
     /// The azimuthal modes of f_r of two and more scatterings, symmetric in its arguments in \[0, 1\]: f_r is the sum over m of
     /// (1 if m = 0, else 2) `modes[m]` cos(m (pi - phi)), phi = 0 towards `wi`. 0 where both are 0.
     pub fn multiple_modes(&self, mu_i: f64, mu_o: f64, modes: &mut [f64]) {
-        check(mu_i);
-        check(mu_o);
+        check_cosine(mu_i);
+        check_cosine(mu_o);
         assert!(modes.len() <= self.reflected.len(), "{} modes are known: {}", self.reflected.len(), modes.len());
         let single = self.slab.single_scattering_mode_0(Elevation::from_cosine(mu_i), Elevation::from_cosine(mu_o));
         let [from, to] = [mu_i, mu_o].map(|mu| self.mesh.stencil(mu));
@@ -181,8 +181,8 @@ impl Transport {
 
     /// Two and more scatterings' part of [`Self::transmitted`].
     pub fn multiple_transmitted(&self, wi: DVec3, wo: DVec3) -> f64 {
-        check(wi.z);
-        check(-wo.z);
+        check_cosine(wi.z);
+        check_cosine(-wo.z);
         let [from, to] = [wi.z, -wo.z].map(|mu| self.mesh.stencil(mu));
         let mut modes = [0.0; MOST_MODES];
         let modes = &mut modes[..self.transmitted.len()];
@@ -224,8 +224,4 @@ fn bilinear(matrix: &DMatrix<f64>, from: &Stencil, to: &Stencil) -> f64 {
 fn cos_azimuth(one: DVec3, other: DVec3) -> f64 {
     let across = sine(one.z.clamp(-1.0, 1.0)) * sine(other.z.clamp(-1.0, 1.0));
     if across > 0.0 { ((one.x * other.x + one.y * other.y) / across).clamp(-1.0, 1.0) } else { 1.0 }
-}
-
-fn check(mu: f64) {
-    assert!((0.0..=1.0).contains(&mu), "mu is in [0, 1]: {mu}");
 }
