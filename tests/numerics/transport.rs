@@ -325,7 +325,7 @@ fn dim_albedos_are_clean() {
 
 #[test]
 fn the_limit_at_the_horizon_is_reached() {
-    // It grows towards 1 as alpha falls; the first is known from a prototype.
+    // It grows towards 1 as alpha falls; the first is known to three digits.
     let limits = [1.0 / 31.0, 0.01, 0.005].map(|alpha| {
         let [one, other] = [1.0, 1.5].map(|refinement| solve(alpha, 1, refinement));
         let [limit, again] = [&one, &other].map(|solution| solution.albedo(0.0));

@@ -225,3 +225,42 @@ fn cos_azimuth(one: DVec3, other: DVec3) -> f64 {
     let across = sine(one.z.clamp(-1.0, 1.0)) * sine(other.z.clamp(-1.0, 1.0));
     if across > 0.0 { ((one.x * other.x + one.y * other.y) / across).clamp(-1.0, 1.0) } else { 1.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_comes_in_at_a_node_goes_out() {
+        for alpha in [1.0, 0.3, 0.1, 1.0 / 31.0, 0.01] {
+            for thickness in [1e-3, 1.0, 30.0] {
+                let slab = Slab::new(alpha).with_thickness(thickness);
+                let mesh = Mesh::new(slab.medium().sigma(), 0.5, None);
+                let rates = rates(slab.medium(), &mesh, 2);
+                // R + T = 1 for each node; the second mode, which carries no energy, is another matter.
+                let [kept, second] = [0, 1].map(|mode| {
+                    let layer = layer(&slab, &mesh, mode, &rates[mode]);
+                    let rows = layer.reflected.row_iter().zip(layer.change.row_iter());
+                    rows.map(|(reflected, change)| (reflected.sum() + change.sum()).abs()).fold(0.0, f64::max)
+                });
+                assert!(kept < 1e-10, "alpha {alpha}, thickness {thickness}: {kept:e}");
+                assert!(second > 1e-4, "alpha {alpha}, thickness {thickness}: {second:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn rates_sum_to_the_extinction() {
+        // The sum over all nodes is what the diagonal relies on: product integration holds it by itself.
+        for alpha in [1.0, 0.3, 0.1, 1.0 / 31.0] {
+            let slab = Slab::new(alpha);
+            let mesh = Mesh::new(slab.medium().sigma(), 1.0, None);
+            let rates = &rates(slab.medium(), &mesh, 1)[0];
+            for (i, node) in mesh.nodes.iter().enumerate() {
+                let sum = rates.onwards.row(i).sum() + rates.back.row(i).sum();
+                let extinction = slab.medium().extinction_at(*node);
+                assert!((sum / extinction - 1.0).abs() < 1e-5, "alpha {alpha}, mu {}: {sum}, {extinction}", node.mu);
+            }
+        }
+    }
+}
