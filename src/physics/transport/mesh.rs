@@ -75,11 +75,11 @@ pub struct Stencil {
 
 impl Mesh {
     /// A mesh for fibres of cross-section `sigma`, `refinement` times as fine as nature asks for (1 is the usual one); around the
-    /// elevation `spike`, if any, as fine as the kernel is wide there.
-    pub fn new(sigma: f64, refinement: f64, spike: Option<f64>) -> Self {
+    /// elevation `ridge`, if any, as fine as the kernel is wide there.
+    pub fn new(sigma: f64, refinement: f64, ridge: Option<f64>) -> Self {
         let (mut edges, wide_from) = edges(sigma, refinement);
-        if let Some(spike) = spike {
-            edges = refined(&edges, spike, 2.0 * sigma * spike.cos().max(sigma) / refinement);
+        if let Some(ridge) = ridge {
+            edges = refined(&edges, ridge, 2.0 * sigma * ridge.cos().max(sigma) / refinement);
         }
         let rule = Rule::new();
         let mut mesh = Self { rule, edges, angles: vec![], nodes: vec![], weights: vec![], first_wide: 0 };
@@ -182,16 +182,16 @@ fn edges(sigma: f64, refinement: f64) -> (Vec<f64>, f64) {
     (edges, wide_from)
 }
 
-/// `edges`, with those panels split that are wider than `scale` and wider than their distance from the elevation `spike`.
-fn refined(edges: &[f64], spike: f64, scale: f64) -> Vec<f64> {
+/// `edges`, with those panels split that are wider than `scale` and wider than their distance from the elevation `ridge`.
+fn refined(edges: &[f64], ridge: f64, scale: f64) -> Vec<f64> {
     let mut waiting: Vec<[f64; 2]> = edges.windows(2).rev().map(|pair| [pair[0], pair[1]]).collect();
     let mut refined = vec![0.0];
     while let Some([low, high]) = waiting.pop() {
-        let distance = f64::max(low - spike, spike - high).max(0.0);
+        let distance = f64::max(low - ridge, ridge - high).max(0.0);
         if high - low > f64::max(scale, distance) {
-            // At the spike itself where it is well inside: the kernel has a cusp there.
-            let inside = (spike - low).min(high - spike) > 0.25 * (high - low);
-            let middle = if inside { spike } else { (low + high) / 2.0 };
+            // At the ridge itself where it is well inside: the kernel has a cusp there.
+            let inside = (ridge - low).min(high - ridge) > 0.25 * (high - low);
+            let middle = if inside { ridge } else { (low + high) / 2.0 };
             waiting.extend([[middle, high], [low, middle]]);
         } else {
             refined.push(high);
