@@ -7,7 +7,7 @@ use crate::fit::lobe::Lobes;
 use crate::fit::{DIM, Errors};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::table::{Ltc, LtcTable};
+use crate::table::{Ltc, LtcTable, centres};
 use rayon::prelude::*;
 
 pub const NAMES: [&str; 2] = ["error_lobe.svg", "error_r.svg"];
@@ -69,18 +69,13 @@ fn albedo_error(table: &LtcTable, transport: &Transport, alpha: f64, mu: f64) ->
     (albedo >= DIM).then(|| (table.lookup(alpha, mu)[2] / albedo - 1.0).abs())
 }
 
-/// The middle of cell `k` of `n`.
-fn center(k: usize, n: usize) -> f64 {
-    (k as f64 + 0.5) / n as f64
-}
-
 fn row(n: usize, value: impl Fn(f64) -> Option<f64>) -> Vec<Option<f64>> {
-    (0..n).map(|j| value(center(j, n))).collect()
+    centres(n).into_iter().map(value).collect()
 }
 
 /// What `row` gives for the middle of each of `n` cells of alpha, on all threads.
 fn field(n: usize, row: impl Fn(f64) -> Vec<Option<f64>> + Sync) -> Field {
-    let rows: Vec<_> = (0..n).into_par_iter().map(|i| row(center(i, n))).collect();
+    let rows: Vec<_> = centres(n).into_par_iter().map(&row).collect();
     Field::of_centers(n, rows.concat())
 }
 

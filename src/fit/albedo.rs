@@ -17,6 +17,7 @@
 use super::report::DIM;
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
+use crate::table::centres;
 use rayon::prelude::*;
 
 /// Samples a side of a cell, at the middles of its parts.
@@ -60,8 +61,7 @@ impl Albedos {
 
     /// Where a table of `resolution` nodes a side is sampled, along either axis.
     pub fn samples(resolution: usize) -> Vec<f64> {
-        let n = (resolution - 1) * PER_CELL;
-        (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect()
+        centres((resolution - 1) * PER_CELL)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::albedo::Albedos;
 use super::{Fit, RESOLUTION, grazing_mu};
-use crate::table::LtcTable;
+use crate::table::{LtcTable, centres};
 use std::fmt;
 
 /// Albedo R below which a lobe is left out of errors: nobody sees it.
@@ -82,21 +82,7 @@ a, b of mu = 0 are those of mu = {grazing}. alpha = 0 has no lobe: a and b of th
         let made = format!("Made by: velour fit{option}");
         about.lines().map(str::to_owned).chain(self.to_string().lines().map(str::to_owned)).chain([made]).collect()
     }
-}
 
-/// Relative errors of the table's r at the centres of `cells` x `cells` cells, where R > 1e-3.
-fn albedo_errors(table: &LtcTable, cells: usize, step: impl Fn() + Sync) -> Errors {
-    let centres: Vec<f64> = (0..cells).map(|k| (k as f64 + 0.5) / cells as f64).collect();
-    let truth = Albedos::new(centres.clone(), centres, step);
-    let mut errors = Vec::new();
-    for (row, &alpha) in truth.values.chunks_exact(cells).zip(&truth.alphas) {
-        let bright = row.iter().zip(&truth.mus).filter(|(value, _)| **value > DIM);
-        errors.extend(bright.map(|(value, &mu)| (table.lookup(alpha, mu)[2] / value - 1.0).abs()));
-    }
-    Errors::new(errors)
-}
-
-impl Report {
     /// The errors of the lobe, of r at the cells' centres, and of r at the spread points, in words.
     pub fn figures(&self) -> [String; 3] {
         let Self { lobe, weighted, centres, spread, .. } = self;
@@ -107,6 +93,17 @@ impl Report {
         let albedo = |errors: &Errors| format!("mean {:.4}, max {:.4}", errors.mean, errors.max);
         [shape, albedo(centres), albedo(spread)]
     }
+}
+
+/// Relative errors of the table's r at the centres of `cells` x `cells` cells, where R > 1e-3.
+fn albedo_errors(table: &LtcTable, cells: usize, step: impl Fn() + Sync) -> Errors {
+    let truth = Albedos::new(centres(cells), centres(cells), step);
+    let mut errors = Vec::new();
+    for (row, &alpha) in truth.values.chunks_exact(cells).zip(&truth.alphas) {
+        let bright = row.iter().zip(&truth.mus).filter(|(value, _)| **value > DIM);
+        errors.extend(bright.map(|(value, &mu)| (table.lookup(alpha, mu)[2] / value - 1.0).abs()));
+    }
+    Errors::new(errors)
 }
 
 impl fmt::Display for Report {

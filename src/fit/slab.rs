@@ -5,13 +5,13 @@
 //! and G the values at pairs of points, that is P G P^T; it leaves half the error of values at the nodes. In alpha, values are those at
 //! the nodes.
 
-use super::hemisphere::Hemisphere;
+use super::lobe::Lobes;
 use super::report::{DIM, Errors};
 use crate::math::sine;
 use crate::physics::modes::Elevation;
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::table::{SLAB_SIDE, SlabTable, SlabWarp, slab_alpha};
+use crate::table::{SLAB_SIDE, SlabTable, SlabWarp, centres, slab_alpha};
 use glam::DVec3;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -69,7 +69,7 @@ pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
     let solution = Transport::new(Slab::new(alpha), NODES);
     let warp = SlabWarp::new(alpha);
     let points = (SLAB_SIDE - 1) * PER_CELL;
-    let at: Vec<f64> = (0..points).map(|k| (k as f64 + 0.5) / points as f64).collect();
+    let at = centres(points);
     let mus: Vec<f64> = at.iter().map(|&t| warp.mu(SlabWarp::root_from_place(t))).collect();
     let mut values = [(); MODES].map(|()| DMatrix::zeros(points, points));
     for i in 0..points {
@@ -127,27 +127,26 @@ fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
 
 /// Relative errors of lobe and R at one alpha, for the bright ones of [`REPORT_MUS`] cosines.
 fn errors(table: &SlabTable, alpha: f64) -> Vec<[f64; 2]> {
-    let truth = Transport::new(Slab::new(alpha), Resolution::default());
+    let lobes = Lobes::new(Transport::new(Slab::new(alpha), Resolution::default()));
+    let Lobes { transport: truth, hemisphere } = &lobes;
     let slice = table.slice(alpha);
-    let hemisphere = Hemisphere::new(truth.cosines());
     let cell = |k: usize| (k * (SLAB_SIDE - 2) / (REPORT_MUS - 1)) as f64 + 0.5;
     let mus = (0..REPORT_MUS).map(|k| slice.warp().mu(SlabWarp::root_from_place(cell(k) / (SLAB_SIDE - 1) as f64)));
     mus.filter(|mu| truth.albedo(*mu) > DIM)
         .map(|mu| {
-            let wi = DVec3::new(sine(mu), 0.0, mu);
-            let [mut square, mut norm, mut albedo] = [0.0; 3];
-            for (&wo, weight) in hemisphere.nodes.iter().zip(&hemisphere.weights) {
+            let (wi, r, shape) = (DVec3::new(sine(mu), 0.0, mu), truth.albedo(mu), lobes.shape(mu));
+            // Over R, as the shape.
+            let found = |wo: DVec3| {
                 let [one, other] = [mu, wo.z].map(Elevation::from_cosine);
-                let single = truth.slab().single_scattering(wi, wo);
                 let modes = slice.lookup(mu, wo.z);
                 let over = modes.over_single(mu * wo.z - wi.dot(wo), (one.s * other.s).powi(2));
-                let found = single + truth.slab().single_scattering_mode_0(one, other) * over * wo.z;
-                let value = single + truth.multiple_reflected(wi, wo);
-                square += weight * (found - value).powi(2);
-                norm += weight * value * value;
-                albedo += weight * found;
-            }
-            [(square / norm).sqrt(), (albedo / truth.albedo(mu) - 1.0).abs()]
+                let multiple = truth.slab().single_scattering_mode_0(one, other) * over * wo.z;
+                (truth.slab().single_scattering(wi, wo) + multiple) / r
+            };
+            let found: Vec<f64> = hemisphere.nodes.iter().map(|&wo| found(wo)).collect();
+            let square = hemisphere.integral(|node| (found[node] - shape[node]).powi(2));
+            let norm = hemisphere.integral(|node| shape[node] * shape[node]);
+            [(square / norm).sqrt(), (hemisphere.integral(|node| found[node]) - 1.0).abs()]
         })
         .collect()
 }

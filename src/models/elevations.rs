@@ -14,7 +14,7 @@
 //! ```
 
 use crate::math::cube_root;
-use crate::table::SlabWarp;
+use crate::table::{SlabWarp, cell};
 
 /// Nodes of a row, at the places k / (n - 1) along the table's axis: twice as fine as the table.
 const NODES: usize = 63;
@@ -123,9 +123,8 @@ impl Row {
     /// Where a place is; one a little past 1 is taken for 1, so that densities stay above 0.
     #[inline]
     fn at(place: f64) -> Self {
-        let x = place.min(1.0) * (ROWS - 1) as f64;
-        let first = (x as usize).min(ROWS - 2);
-        Self { first, share: x - first as f64 }
+        let (first, share) = cell(place.min(1.0), ROWS);
+        Self { first, share }
     }
 
     /// A value at node `k`, of a table that holds them row by row.

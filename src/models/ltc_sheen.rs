@@ -3,7 +3,7 @@
 use super::{Bsdf, Sample, check_alpha, check_uniforms, cosine};
 use crate::math::check_cosine;
 use crate::math::frame::AzimuthFrame;
-use crate::table::{Ltc, LtcTable, node};
+use crate::table::{Ltc, LtcTable, cell, node};
 use glam::DVec3;
 
 /// The sheen as a linearly transformed cosine, with the table's numbers at one alpha (Zeltner, Burley, Chiang 2022, eq. 1).
@@ -26,9 +26,7 @@ impl LtcSheen {
 
     /// The lobe at a cosine, and its albedo.
     fn lobe(&self, mu: f64) -> (Ltc, f64) {
-        let x = mu * (self.nodes.len() - 1) as f64;
-        let below = (x as usize).min(self.nodes.len() - 2);
-        let t = x - below as f64;
+        let (below, t) = cell(mu, self.nodes.len());
         let [low, high] = [self.nodes[below], self.nodes[below + 1]];
         let between = |k: usize| (1.0 - t) * low[k] + t * high[k];
         (Ltc { a: between(0), b: between(1) }, between(2))

@@ -43,6 +43,11 @@ impl Slab {
         (-self.depth(mu)).exp()
     }
 
+    /// The share of light that is scattered at all: what [`Self::unscattered`] leaves, without cancellation.
+    pub fn scattered(&self, mu: f64) -> f64 {
+        -(-self.depth(mu)).exp_m1()
+    }
+
     /// Optical depth of the slab at cosine `mu` in \[0, 1\]: extinction x thickness / mu, infinite at 0.
     pub fn depth(&self, mu: f64) -> f64 {
         check_cosine(mu);

@@ -155,7 +155,7 @@ impl Walk {
     pub fn share(&self) -> f64 {
         let scattered = match self.first_flight {
             FirstFlight::Analog => 1.0,
-            FirstFlight::Scattered => -(-self.slab.depth(self.mu)).exp_m1(),
+            FirstFlight::Scattered => self.slab.scattered(self.mu),
         };
         scattered / self.paths as f64
     }

@@ -131,13 +131,8 @@ impl LtcTable {
     /// `[a, b, r]` at `alpha` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
     pub fn lookup(&self, alpha: f64, mu: f64) -> [f64; 3] {
         assert!(!alpha.is_nan() && !mu.is_nan(), "lookup at alpha {alpha}, mu {mu}");
-        let place = |x: f64, nodes: usize| {
-            let x = x.clamp(0.0, 1.0) * (nodes - 1) as f64;
-            let below = (x as usize).min(nodes - 2);
-            (below, x - below as f64)
-        };
-        let (i, s) = place(alpha, self.size[0]);
-        let (j, t) = place(mu, self.size[1]);
+        let (i, s) = cell(alpha.clamp(0.0, 1.0), self.size[0]);
+        let (j, t) = cell(mu.clamp(0.0, 1.0), self.size[1]);
         let corners = [self.cell(i, j), self.cell(i, j + 1), self.cell(i + 1, j), self.cell(i + 1, j + 1)];
         std::array::from_fn(|k| {
             let [c00, c01, c10, c11] = corners.map(|corner| corner[k]);
@@ -195,6 +190,19 @@ fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
 /// Where node `k` of `n` sits.
 pub fn node(k: usize, n: usize) -> f64 {
     k as f64 / (n - 1) as f64
+}
+
+/// The cell between two of `n` nodes in which `x` in \[0, 1\] lies, and how far it is from the lower one, in cells.
+#[inline]
+pub fn cell(x: f64, n: usize) -> (usize, f64) {
+    let x = x * (n - 1) as f64;
+    let below = (x as usize).min(n - 2);
+    (below, x - below as f64)
+}
+
+/// The centres of `n` equal cells of \[0, 1\].
+pub fn centres(n: usize) -> Vec<f64> {
+    (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect()
 }
 
 /// How many half-floats lie from `one` to `other`.

@@ -21,7 +21,7 @@
 //! the alpha of the lookup itself, not for that of a node. Linear between the nodes, whose values are fitted for it. Two modes leave
 //! 0.3% of a lobe (relative L2), three 0.05%.
 
-use super::{TableError, half_steps};
+use super::{TableError, cell, half_steps};
 use crate::math::{check_cosine, cube_root};
 use half::f16;
 use std::fmt;
@@ -170,12 +170,7 @@ impl SlabSlice {
     /// The modes at two places along the axis, in \[0, 1\].
     #[inline]
     pub fn at(&self, places: [f64; 2]) -> SlabModes {
-        let cell = |place: f64| {
-            let x = place * (SLAB_SIDE - 1) as f64;
-            let below = (x as usize).min(SLAB_SIDE - 2);
-            (below, x - below as f64)
-        };
-        let ((i, s), (j, t)) = (cell(places[0]), cell(places[1]));
+        let [(i, s), (j, t)] = places.map(|place| cell(place, SLAB_SIDE));
         let at = i * SLAB_SIDE + j;
         let (c00, c01) = (&self.cells[at], &self.cells[at + 1]);
         let (c10, c11) = (&self.cells[at + SLAB_SIDE], &self.cells[at + SLAB_SIDE + 1]);

@@ -15,3 +15,9 @@ mod statistics;
 mod table;
 mod transport;
 mod walk;
+
+/// The unit vector of cosine `mu` to the normal and azimuth `phi`.
+fn direction(mu: f64, phi: f64) -> glam::DVec3 {
+    let s = velour::math::sine(mu);
+    glam::DVec3::new(s * phi.cos(), s * phi.sin(), mu)
+}

@@ -1,3 +1,4 @@
+use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, chi_square};
 use glam::DVec3;
 use rand::SeedableRng;
@@ -9,11 +10,6 @@ use velour::physics::sggx::Sggx;
 
 const SIGMAS: [f64; 4] = [1.0, 0.25, 0.04, 1.0 / (31.0 * 31.0)];
 const COSINES: [f64; 5] = [1.0, 0.6, 0.05, 1e-3, -0.3];
-
-fn direction(mu: f64, phi: f64) -> DVec3 {
-    let s = ((1.0 - mu) * (1.0 + mu)).sqrt();
-    DVec3::new(s * phi.cos(), s * phi.sin(), mu)
-}
 
 /// Edges over [from, to] that close in on `center` by halves, down to 2^-`halvings` of the way.
 fn graded(from: f64, to: f64, center: f64, halvings: i32) -> Vec<f64> {

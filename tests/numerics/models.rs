@@ -1,5 +1,6 @@
 //! The models: that they sample what they say, keep energy, and are the slab.
 
+use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
 use glam::DVec3;
 use rand::SeedableRng;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use velour::fit::hemisphere::Hemisphere;
 use velour::math::quadrature::gauss_legendre;
-use velour::math::{sine, warp::uniform};
+use velour::math::warp::uniform;
 use velour::models::{Bsdf, LtcSheen, Sample, SlabSheen};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
@@ -27,11 +28,6 @@ const CELLS: [(f64, f64); 10] = [
     (0.7, 1.0),
     (1.0, 0.05),
 ];
-
-fn direction(mu: f64, phi: f64) -> DVec3 {
-    let s = sine(mu);
-    DVec3::new(s * phi.cos(), s * phi.sin(), mu)
-}
 
 /// `wi` of a cell stands across the axes.
 const AZIMUTH: f64 = 2.2;

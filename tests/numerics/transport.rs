@@ -1,5 +1,6 @@
 //! The deterministic solution: against itself on other meshes, against the walk, and against what is known otherwise.
 
+use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
 use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
@@ -23,7 +24,7 @@ fn mus() -> impl Iterator<Item = f64> {
 }
 
 fn incident(mu: f64) -> DVec3 {
-    DVec3::new(sine(mu), 0.0, mu)
+    direction(mu, 0.0)
 }
 
 /// Largest relative differences over `mus`: of R, and of the reflected lobe in L2.
@@ -202,10 +203,6 @@ fn shares(nodes: usize, lobe: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     let whole: f64 = shares.iter().sum();
     shares.iter_mut().for_each(|share| *share /= whole);
     shares
-}
-
-fn direction(mu: f64, phi: f64) -> DVec3 {
-    DVec3::new(sine(mu) * phi.cos(), sine(mu) * phi.sin(), mu)
 }
 
 fn lobe_probability(walked: (f64, f64), solved: (f64, f64)) -> f64 {

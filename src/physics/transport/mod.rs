@@ -95,13 +95,14 @@ impl Transport {
         let mesh = Mesh::new(slab.medium().sigma(), refinement, ridge.map(f64::asin));
         let rates = rates(slab.medium(), &mesh, modes);
         let mut solution = Self { slab, mesh, albedo: vec![], reflected: vec![], transmitted: vec![] };
+        let projection = smooth::projection(&solution.mesh);
         for (mode, rates) in rates.iter().enumerate() {
-            solution.solve(mode, rates);
+            solution.solve(mode, rates, projection.as_ref());
         }
         solution
     }
 
-    fn solve(&mut self, mode: usize, rates: &Rates) {
+    fn solve(&mut self, mode: usize, rates: &Rates, projection: Option<&DMatrix<f64>>) {
         let layer = layer(&self.slab, &self.mesh, mode, rates);
         if mode == 0 {
             let single = self.mesh.nodes.iter().map(|node| self.slab.single_scattering_albedo(node.mu));
@@ -116,10 +117,10 @@ impl Transport {
             let single = rates.back[(i, j)] * slab.reflected_once(one, other) * other.mu;
             (layer.reflected[(i, j)] - single) * spread(j) / slab.single_scattering_mode_0(one, other)
         });
-        self.reflected.push(smooth::symmetric(mesh, ratio));
+        self.reflected.push(smooth::symmetric(projection, ratio));
         self.transmitted.push(DMatrix::from_fn(n, n, |i, j| {
             let [one, other] = [i, j].map(|k| mesh.nodes[k]);
-            let scattered = if i == j { -(-slab.depth(one.mu)).exp_m1() } else { 0.0 };
+            let scattered = if i == j { slab.scattered(one.mu) } else { 0.0 };
             let single = rates.onwards[(i, j)] * slab.transmitted_once(one, other) * other.mu;
             (layer.change[(i, j)] + scattered - single) * spread(j)
         }));
@@ -143,7 +144,7 @@ impl Transport {
     /// The share of light of cosine `mu` in \[0, 1\] that leaves below after one or more scatterings: what is neither unscattered nor
     /// reflected, as nothing is absorbed.
     pub fn transmittance(&self, mu: f64) -> f64 {
-        -(-self.slab.depth(mu)).exp_m1() - self.albedo(mu)
+        self.slab.scattered(mu) - self.albedo(mu)
     }
 
     /// The reflected lobe f_r(wi, wo) mu_o, per steradian, all orders. `wi` and `wo` are unit, z >= 0, pointing away.

@@ -8,7 +8,7 @@ const SMOOTH_DEGREE: usize = 10;
 
 /// The matrix that replaces values at the mesh's wide nodes by their best approximation by polynomials in the logarithm of the angle, in
 /// the norm of d ln(angle); none where the wide panels are too few to need it.
-fn projection(mesh: &Mesh) -> Option<DMatrix<f64>> {
+pub fn projection(mesh: &Mesh) -> Option<DMatrix<f64>> {
     let wide = mesh.first_wide..mesh.len();
     if wide.len() < 2 * (SMOOTH_DEGREE + 1) {
         return None;
@@ -31,11 +31,12 @@ fn projection(mesh: &Mesh) -> Option<DMatrix<f64>> {
     Some(projection)
 }
 
-/// A symmetric function of two cosines at the nodes, from `values` (i, j) that are exact in i and averages in j.
-pub fn symmetric(mesh: &Mesh, mut values: DMatrix<f64>) -> DMatrix<f64> {
-    if let Some(projection) = projection(mesh) {
-        let wide = mesh.len() - mesh.first_wide;
-        let mut block = values.view_mut((mesh.first_wide, mesh.first_wide), (wide, wide));
+/// A symmetric function of two cosines at the nodes, from `values` (i, j) that are exact in i and averages in j, and the mesh's
+/// [`projection`].
+pub fn symmetric(projection: Option<&DMatrix<f64>>, mut values: DMatrix<f64>) -> DMatrix<f64> {
+    if let Some(projection) = projection {
+        let (wide, first) = (projection.nrows(), values.nrows() - projection.nrows());
+        let mut block = values.view_mut((first, first), (wide, wide));
         let smooth = &block * projection.transpose();
         block.copy_from(&smooth);
     }
