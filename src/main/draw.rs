@@ -7,7 +7,7 @@ use serde_json::json;
 use velour::picture::{Format, check_writable, write_atomically};
 use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Offscreen, RenderError};
-use velour::scene::{Camera, Scene, Settings, gltf};
+use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::{LtcTable, SLAB_SIDE, SlabTable};
 
 use crate::render_args::{Render, Switch};
@@ -95,8 +95,12 @@ fn settings(arguments: &Render) -> Settings {
         lobes: arguments.lobes,
         lights_visible: arguments.lights_visible == Switch::On,
         exposure: arguments.exposure,
-        alpha: arguments.alpha,
-        sheen_color: arguments.sheen_color.map(Into::into),
+        overrides: Overrides {
+            alpha: arguments.alpha,
+            sheen_color: arguments.sheen_color.map(Into::into),
+            ..Overrides::default()
+        },
+        ..Settings::default()
     }
 }
 

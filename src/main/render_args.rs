@@ -27,8 +27,8 @@ pub struct Render {
     /// Another table with our columns, .csv or .dds
     #[arg(long, value_name = "FILE")]
     pub sheen_table: Option<PathBuf>,
-    /// What is summed, of sheen, diffuse and emission
-    #[arg(long, default_value = "sheen,diffuse,emission", value_name = "LIST", value_parser = lobes)]
+    /// What is summed, of sheen, diffuse, specular and emission
+    #[arg(long, default_value = "sheen,diffuse,specular,emission", value_name = "LIST", value_parser = lobes)]
     pub lobes: Lobes,
     /// Emitters that light the scene are drawn
     #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
@@ -106,13 +106,14 @@ fn samples(text: &str) -> Result<u32, String> {
 }
 
 fn lobes(text: &str) -> Result<Lobes, String> {
-    let mut lobes = Lobes { sheen: false, diffuse: false, emission: false };
+    let mut lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: false };
     for name in text.split(',') {
         match name.trim() {
             "sheen" => lobes.sheen = true,
             "diffuse" => lobes.diffuse = true,
+            "specular" => lobes.specular = true,
             "emission" => lobes.emission = true,
-            _ => return Err("give a list of sheen, diffuse and emission, say sheen,diffuse".to_owned()),
+            _ => return Err("give a list of sheen, diffuse, specular and emission, say sheen,diffuse".to_owned()),
         }
     }
     Ok(lobes)
@@ -128,7 +129,7 @@ mod tests {
         assert_eq!(share("0"), Ok(0.0));
         assert_eq!(color("1, 0.5,0"), Ok([1.0, 0.5, 0.0]));
         assert_eq!(exposure("-2.5"), Ok(-2.5));
-        assert_eq!(lobes("sheen"), Ok(Lobes { sheen: true, diffuse: false, emission: false }));
+        assert_eq!(lobes("sheen"), Ok(Lobes { sheen: true, diffuse: false, specular: false, emission: false }));
     }
 
     #[test]
@@ -146,7 +147,7 @@ mod tests {
         for text in ["nan", "inf", "101", "x"] {
             assert!(exposure(text).is_err(), "{text}");
         }
-        for text in ["", "specular", "sheen,", "all"] {
+        for text in ["", "shadow", "sheen,", "all"] {
             assert!(lobes(text).is_err(), "{text}");
         }
     }

@@ -8,7 +8,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
 use super::RenderError;
-use crate::scene::{Light, Material, Mesh, Scene, Settings, alpha_from_roughness};
+use crate::scene::{Light, Material, Mesh, Scene, Settings};
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -156,8 +156,8 @@ fn materials(scene: &Scene, settings: &Settings) -> Vec<GpuMaterial> {
         let sheen = settings.sheen_of(material);
         GpuMaterial {
             base_color: material.base_color,
-            alpha: sheen.map_or(0.0, |sheen| alpha_from_roughness(sheen.roughness)),
-            sheen_color: sheen.map_or(Vec3::ZERO, |sheen| sheen.color),
+            alpha: sheen.map_or(0.0, |look| look.roughness_map.alpha_from_roughness(look.sheen.roughness)),
+            sheen_color: sheen.map_or(Vec3::ZERO, |look| look.sheen.weight * look.sheen.color),
             padding: 0,
         }
     };

@@ -32,3 +32,32 @@ pub struct Polygon {
     /// Unit normal, towards the emitting side.
     pub normal: Vec3,
 }
+
+/// A light without extent (KHR_lights_punctual).
+#[derive(Clone, Debug, PartialEq)]
+pub struct PunctualLight {
+    pub name: String,
+    pub kind: PunctualKind,
+    /// Colour times intensity, linear Rec. 709, >= 0: radiant intensity (W/sr) of points and spots, irradiance (W/m^2) across a
+    /// directional light's rays.
+    pub intensity: Vec3,
+    /// Metres; of directional lights without meaning.
+    pub position: Vec3,
+    /// The way that it shines, unit; of points without meaning.
+    pub direction: Vec3,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PunctualKind {
+    /// Falls off with the distance squared, and to nothing at `range` (metres, may be infinite).
+    Point {
+        range: f32,
+    },
+    /// Likewise; full within the angle `inner` about its direction, nothing beyond `outer`; 0 <= inner < outer <= pi / 2.
+    Spot {
+        range: f32,
+        inner: f32,
+        outer: f32,
+    },
+    Directional,
+}

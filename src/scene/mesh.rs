@@ -1,4 +1,4 @@
-use glam::{DMat3, Mat3, Mat4, Vec3};
+use glam::{DMat3, Mat3, Mat4, Vec2, Vec3, Vec4};
 
 /// An indexed triangle mesh in its own space.
 #[derive(Clone, Debug, Default)]
@@ -9,6 +9,12 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Unit length, one per position.
     pub normals: Vec<Vec3>,
+    /// Unit length, one per position, w = 1 or -1: the bitangent is w (normal x tangent). Empty where nothing is normal-mapped.
+    pub tangents: Vec<Vec4>,
+    /// Two sets of texture coordinates, each with one per position, or empty.
+    pub tex_coords: [Vec<Vec2>; 2],
+    /// Linear colour and opacity that multiply the material's base colour, 65535 is 1: one per position, or empty.
+    pub colors: Vec<[u16; 4]>,
     /// Three per triangle, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Index into `Scene::materials`.

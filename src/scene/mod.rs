@@ -18,16 +18,18 @@ mod rig;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod texture;
 
 use glam::Vec3;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use error::SceneError;
-pub use light::{Light, Polygon};
-pub use material::{Material, Sheen, alpha_from_roughness};
+pub use light::{Light, Polygon, PunctualKind, PunctualLight};
+pub use material::{AlphaMode, Material, Sheen, TextureSlot};
 pub use mesh::{Instance, Mesh};
-pub use settings::{Lobes, Settings};
+pub use settings::{Layering, Lobes, Overrides, RoughnessMap, Settings, SheenLook, SheenModel};
+pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap};
 
 /// Everything that a picture is made of.
 ///
@@ -39,7 +41,12 @@ pub struct Scene {
     /// Meshes placed in the world.
     pub instances: Vec<Instance>,
     pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub images: Vec<Image>,
+    /// Polygonal area lights.
     pub lights: Vec<Light>,
+    /// Lights without extent.
+    pub punctual_lights: Vec<PunctualLight>,
     /// At least one, after loading: the first is the default view.
     pub cameras: Vec<Camera>,
     /// What the file holds and Velour does not draw, or what was added (a framing camera, a default rig): one line each,

@@ -91,7 +91,7 @@ fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
     // The form factor of a small rectangle that faces a surface: its area over pi times the distance squared.
     let form_factor = 4.0 * panel.half_size[0] * panel.half_size[1] / (std::f32::consts::PI * DISTANCE * DISTANCE);
     let emission = Vec3::splat(panel.level / form_factor);
-    scene.materials.push(Material { name: name(), base_color: Vec3::ZERO, sheen: None, emission, double_sided: false });
+    scene.materials.push(Material { emission, ..Material::matte(name(), Vec3::ZERO) });
     let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     scene.meshes.push(Mesh {
         name: name(),
@@ -99,6 +99,7 @@ fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
         normals: vec![Vec3::Z; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
         material: scene.materials.len() - 1,
+        ..Mesh::default()
     });
     scene.instances.push(Instance { name: name(), mesh: scene.meshes.len() - 1, world_from_mesh });
 }

@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 
 use super::{Material, Sheen};
@@ -10,28 +12,144 @@ pub struct Settings {
     pub lights_visible: bool,
     /// Exposure value: a .png's radiance is multiplied by `2^exposure`. No part of a linear picture.
     pub exposure: f32,
-    /// Gives every material a sheen of this roughness in [0, 1].
-    pub alpha: Option<f32>,
-    /// Gives every material a sheen of this colour, linear Rec. 709 in [0, 1].
-    pub sheen_color: Option<Vec3>,
+    /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
+    pub ambient: Vec3,
+    /// What is changed in every material.
+    pub overrides: Overrides,
+    /// What is changed in the materials of these names; goes before `overrides`.
+    pub material_overrides: BTreeMap<String, Overrides>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { lobes: Lobes::default(), lights_visible: true, exposure: 0.0, alpha: None, sheen_color: None }
+        Self {
+            lobes: Lobes::default(),
+            lights_visible: true,
+            exposure: 0.0,
+            ambient: Vec3::ZERO,
+            overrides: Overrides::default(),
+            material_overrides: BTreeMap::new(),
+        }
     }
 }
 
+/// What is changed in a material; what is open stays as it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Gives a sheen of this roughness in [0, 1], whatever the textures.
+    pub alpha: Option<f32>,
+    /// Gives a sheen of this colour, linear Rec. 709 in [0, 1], whatever the textures.
+    pub sheen_color: Option<Vec3>,
+    pub roughness_map: Option<RoughnessMap>,
+    pub sheen_model: Option<SheenModel>,
+    pub layering: Option<Layering>,
+}
+
+impl Overrides {
+    /// These, and where they leave something open the others.
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            alpha: self.alpha.or(others.alpha),
+            sheen_color: self.sheen_color.or(others.sheen_color),
+            roughness_map: self.roughness_map.or(others.roughness_map),
+            sheen_model: self.sheen_model.or(others.sheen_model),
+            layering: self.layering.or(others.layering),
+        }
+    }
+}
+
+/// How the paper's alpha follows from the user's roughness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RoughnessMap {
+    /// alpha = roughness: OpenPBR, MaterialX, Cycles.
+    #[default]
+    Identity,
+    /// alpha = roughness^2: glTF's Charlie.
+    Square,
+    /// alpha = roughness^(1/2): OSL, Babylon.
+    Sqrt,
+}
+
+impl RoughnessMap {
+    /// The power of the roughness that alpha is.
+    pub fn exponent(self) -> f32 {
+        match self {
+            Self::Identity => 1.0,
+            Self::Square => 2.0,
+            Self::Sqrt => 0.5,
+        }
+    }
+
+    /// The paper's alpha for the user's roughness in [0, 1].
+    pub fn alpha_from_roughness(self, roughness: f32) -> f32 {
+        roughness.powf(self.exponent())
+    }
+}
+
+/// What the sheen's lobe is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SheenModel {
+    /// The fitted transformed cosine (Zeltner, Burley, Chiang 2022).
+    #[default]
+    Ltc,
+}
+
+/// What is left of the base under a sheen of colour C and albedo r(mu).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Layering {
+    /// 1 - max3(C) r(view): KHR_materials_sheen.
+    #[default]
+    Gltf,
+    /// 1 - F r(view) with F the layer's weight, whatever its colour: OpenPBR.
+    OpenPbr,
+    /// The lesser of 1 - max3(C) r on the view's and on the light's side (Conty Estevez and Kulla 2017).
+    Reciprocal,
+    /// This share in [0, 1], whatever the sheen.
+    Manual(f32),
+    /// All of it.
+    None,
+}
+
+/// The sheen that a material is drawn with, overrides applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheenLook {
+    pub sheen: Sheen,
+    pub roughness_map: RoughnessMap,
+    pub model: SheenModel,
+    /// Whether the material's textures of colour (and weight) and of roughness still count.
+    pub color_is_textured: bool,
+    pub roughness_is_textured: bool,
+}
+
 impl Settings {
+    /// What is changed in `material`.
+    pub fn overrides_of(&self, material: &Material) -> Overrides {
+        self.material_overrides.get(&material.name).copied().unwrap_or_default().or(self.overrides)
+    }
+
     /// The sheen that `material` is drawn with. What `alpha` and `sheen_color` leave open is the material's own; a material
     /// without a sheen, or with a black one, is given a white one of roughness 0.5 where either is set.
-    pub fn sheen_of(&self, material: &Material) -> Option<Sheen> {
-        let own = material.sheen.filter(|sheen| sheen.color != Vec3::ZERO);
-        if self.alpha.is_none() && self.sheen_color.is_none() {
-            return own;
-        }
-        let base = own.unwrap_or(Sheen { color: Vec3::ONE, roughness: 0.5 });
-        Some(Sheen { color: self.sheen_color.unwrap_or(base.color), roughness: self.alpha.unwrap_or(base.roughness) })
+    pub fn sheen_of(&self, material: &Material) -> Option<SheenLook> {
+        let overrides = self.overrides_of(material);
+        let own = material.sheen.filter(|sheen| sheen.color != Vec3::ZERO && sheen.weight > 0.0);
+        let given = overrides.alpha.is_some() || overrides.sheen_color.is_some();
+        let base = own.or_else(|| given.then(|| Sheen::new(Vec3::ONE, 0.5)))?;
+        Some(SheenLook {
+            sheen: Sheen {
+                color: overrides.sheen_color.unwrap_or(base.color),
+                roughness: overrides.alpha.unwrap_or(base.roughness),
+                weight: if overrides.sheen_color.is_some() { 1.0 } else { base.weight },
+            },
+            roughness_map: overrides.roughness_map.unwrap_or_default(),
+            model: overrides.sheen_model.unwrap_or_default(),
+            color_is_textured: own.is_some() && overrides.sheen_color.is_none(),
+            roughness_is_textured: own.is_some() && overrides.alpha.is_none(),
+        })
+    }
+
+    /// How `material`'s sheen and base are put together.
+    pub fn layering_of(&self, material: &Material) -> Layering {
+        self.overrides_of(material).layering.unwrap_or_default()
     }
 }
 
@@ -40,11 +158,12 @@ impl Settings {
 pub struct Lobes {
     pub sheen: bool,
     pub diffuse: bool,
+    pub specular: bool,
     pub emission: bool,
 }
 
 impl Default for Lobes {
     fn default() -> Self {
-        Self { sheen: true, diffuse: true, emission: true }
+        Self { sheen: true, diffuse: true, specular: true, emission: true }
     }
 }

@@ -58,14 +58,7 @@ mod tests {
     use glam::{Mat4, Vec3};
 
     fn state() -> State {
-        let sheen = Some(Sheen { color: Vec3::ONE, roughness: 0.3 });
-        let velvet = Material {
-            name: "velvet".into(),
-            base_color: Vec3::ZERO,
-            sheen,
-            emission: Vec3::ZERO,
-            double_sided: false,
-        };
+        let velvet = Material { sheen: Some(Sheen::new(Vec3::ONE, 0.3)), ..Material::matte("velvet", Vec3::ZERO) };
         let triangle = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], ..Mesh::default() };
         let camera = Camera {
             name: "camera".into(),

@@ -53,7 +53,7 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
         list.show_index(ui, &mut state.material, names.len(), |index| names[index].clone());
     }
     let before = state.scene.materials[state.material].sheen;
-    let mut sheen = before.unwrap_or(Sheen { color: Vec3::ZERO, roughness: 0.5 });
+    let mut sheen = before.unwrap_or(Sheen::new(Vec3::ZERO, 0.5));
     ui.label("alpha");
     ui.horizontal(|ui| {
         ui.label("fuzz");

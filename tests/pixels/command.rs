@@ -4,7 +4,7 @@ use velour::picture::{DisplayImage, LinearImage, ToneCurve};
 use velour::scene::{Settings, gltf};
 use velour::table::{LtcTable, SlabTable};
 
-use super::compare::{differences, linear, sheen_alone};
+use super::compare::{changed, differences, linear, sheen_alone};
 use super::run::{Bench, small_stage};
 use super::stage::Stage;
 use super::truth::Truth;
@@ -38,7 +38,7 @@ fn a_linear_file_is_the_designs_sum_at_pixel_centres() {
     hold(&small_stage(), "", &LtcTable::embedded(), &sheen_alone());
     // Exposure and tone are no part of it, whatever is asked.
     hold(&small_stage(), "--exposure 3", &LtcTable::embedded(), &sheen_alone());
-    let changed = Settings { alpha: Some(0.8), sheen_color: Some([0.2, 0.4, 1.0].into()), ..sheen_alone() };
+    let changed = changed(Some(0.8), Some([0.2, 0.4, 1.0].into()), sheen_alone());
     hold(&small_stage(), "--alpha 0.8 --sheen-color 0.2,0.4,1", &LtcTable::embedded(), &changed);
 }
 

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::{Gpu, Offscreen, device};
-use velour::scene::{Lobes, Scene, Settings, gltf};
+use velour::scene::{Lobes, Overrides, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
 use super::stage::Stage;
@@ -31,9 +31,14 @@ const EDGE: f64 = 0.05;
 /// So much of a picture may be left out as edges. Stages are made of few large things.
 const EDGES_MOST: f64 = 0.05;
 
+/// Settings with another sheen for every material.
+pub fn changed(alpha: Option<f32>, sheen_color: Option<Vec3>, settings: Settings) -> Settings {
+    Settings { overrides: Overrides { alpha, sheen_color, ..Overrides::default() }, ..settings }
+}
+
 /// Light from lights that are not seen, scattered by the sheen alone.
 pub fn sheen_alone() -> Settings {
-    let lobes = Lobes { sheen: true, diffuse: false, emission: false };
+    let lobes = Lobes { sheen: true, diffuse: false, specular: false, emission: false };
     Settings { lobes, lights_visible: false, ..Settings::default() }
 }
 

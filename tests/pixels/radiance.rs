@@ -5,7 +5,7 @@ use velour::picture::LinearImage;
 use velour::scene::{Lobes, Material, Projection, Settings};
 use velour::table::LtcTable;
 
-use super::compare::{SIZE, differences, hold, linear, sheen_alone};
+use super::compare::{SIZE, changed, differences, hold, linear, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
 use super::truth::Truth;
 
@@ -158,7 +158,7 @@ fn parallel_projection_has_one_view_direction() {
 fn lobes_are_summed_as_asked() {
     let stage = Stage::new(vec![floor(cloth()), window()], looking([0.4, 1.3, 3.4], [0.2, 0.4, 0.0]));
     for bits in 1..8 {
-        let lobes = Lobes { sheen: bits & 1 != 0, diffuse: bits & 2 != 0, emission: bits & 4 != 0 };
+        let lobes = Lobes { sheen: bits & 1 != 0, diffuse: bits & 2 != 0, specular: false, emission: bits & 4 != 0 };
         let lights_visible = bits & 4 != 0;
         hold(&stage, &Settings { lobes, lights_visible, ..Settings::default() });
     }
@@ -190,9 +190,9 @@ fn one_sheen_may_be_given_to_all() {
     bare.sheen = None;
     let stage = Stage::new(vec![floor(cloth()), bulge(bare, 1.0), window()], eye());
     let color = Some(Vec3::new(0.1, 0.9, 0.4));
-    hold(&stage, &Settings { alpha: Some(0.7), ..Settings::default() });
-    hold(&stage, &Settings { sheen_color: color, ..Settings::default() });
-    hold(&stage, &Settings { alpha: Some(0.0), sheen_color: color, ..Settings::default() });
+    hold(&stage, &changed(Some(0.7), None, Settings::default()));
+    hold(&stage, &changed(None, color, Settings::default()));
+    hold(&stage, &changed(Some(0.0), color, Settings::default()));
 }
 
 /// A table as unlike the shipped one as can be: every node has its own numbers, and the sides differ.

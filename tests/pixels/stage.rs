@@ -26,12 +26,12 @@ pub struct Thing {
 
 /// White and dull: no sheen, no light.
 pub fn plain() -> Material {
-    Material { name: String::new(), base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
+    Material::matte("", Vec3::ONE)
 }
 
 /// With a sheen over a base of its own colour.
 pub fn velvet(color: [f32; 3], roughness: f32) -> Material {
-    Material { base_color: Vec3::new(0.3, 0.6, 0.9), sheen: Some(Sheen { color: color.into(), roughness }), ..plain() }
+    Material { base_color: Vec3::new(0.3, 0.6, 0.9), sheen: Some(Sheen::new(color.into(), roughness)), ..plain() }
 }
 
 /// Black, and of this radiance.
@@ -101,6 +101,7 @@ impl Stage {
             normals: thing.normals.clone(),
             indices: thing.triangles.as_flattened().to_vec(),
             material: index,
+            ..Mesh::default()
         };
         let instance = |(index, thing): (usize, &Thing)| Instance {
             name: format!("thing {index}"),
@@ -118,7 +119,7 @@ impl Stage {
             materials: self.things.iter().map(|thing| thing.material.clone()).collect(),
             lights: things.filter(|(_, thing)| thing.glows()).map(light).collect(),
             cameras: vec![camera],
-            notices: Vec::new(),
+            ..Scene::default()
         }
     }
 

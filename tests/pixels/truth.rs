@@ -85,8 +85,8 @@ impl<'a> Truth<'a> {
     /// The design's sum: lobes weighted, over all lights.
     fn radiance(&self, thing: &Thing, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
         let sheen = self.settings.sheen_of(&thing.material);
-        let color = sheen.map_or(DVec3::ZERO, |sheen| sheen.color.as_dvec3());
-        let alpha = sheen.map_or(0.0, |sheen| f64::from(sheen.roughness));
+        let color = sheen.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3());
+        let alpha = sheen.map_or(0.0, |look| f64::from(look.sheen.roughness));
         let [a, b, r] = self.table.lookup(alpha, normal.dot(view).max(0.0));
         let m_inv = DMat3::from_cols(DVec3::new(a, 0.0, 0.0), DVec3::new(0.0, a, 0.0), DVec3::new(b, 0.0, 1.0));
         let base = thing.material.base_color.as_dvec3() * (1.0 - color.max_element() * r);

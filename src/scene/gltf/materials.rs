@@ -30,8 +30,7 @@ pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> 
 
 /// What a primitive without a material is made of, by glTF.
 pub fn default_material() -> Material {
-    let name = "default".to_owned();
-    Material { name, base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false }
+    Material { metallic: 1.0, specular: 1.0, ..Material::matte("default", Vec3::ONE) }
 }
 
 fn read_one(material: &json::Material) -> Result<Material, String> {
@@ -54,6 +53,7 @@ fn read_one(material: &json::Material) -> Result<Material, String> {
         sheen: extensions.and_then(|extensions| extensions.others.get(SHEEN)).map(read_sheen).transpose()?,
         emission: emissive * strength,
         double_sided: material.double_sided,
+        ..Material::matte("", Vec3::ONE)
     })
 }
 
@@ -81,7 +81,7 @@ fn read_sheen(value: &Value) -> Result<Sheen, String> {
     }
     let color = Vec3::from(in_unit("sheenColorFactor", color)?);
     let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
-    Ok(Sheen { color, roughness })
+    Ok(Sheen::new(color, roughness))
 }
 
 /// JSON as it can stand in a line.

@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
         if indices.is_empty() {
             return Ok(None);
         }
-        let mut mesh = Mesh { name, positions, normals: Vec::new(), indices: indices.into_flattened(), material };
+        let mut mesh = Mesh { name, positions, indices: indices.into_flattened(), material, ..Mesh::default() };
         match primitive.attributes.get(&Valid(Semantic::Normals)) {
             None => flatten(&mut mesh),
             Some(normals) => {

@@ -1,20 +1,16 @@
 //! What settings make of materials.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 
-use crate::scene::{Material, Settings, Sheen};
+use crate::scene::{Material, Overrides, Settings, Sheen};
 
 #[test]
 fn settings_give_every_material_a_sheen() {
-    let red = Sheen { color: Vec3::X, roughness: 0.25 };
-    let black = Sheen { color: Vec3::ZERO, roughness: 0.25 };
-    let material = |sheen| Material {
-        name: String::new(),
-        base_color: Vec3::ONE,
-        sheen,
-        emission: Vec3::ZERO,
-        double_sided: false,
-    };
+    let red = Sheen::new(Vec3::X, 0.25);
+    let black = Sheen::new(Vec3::ZERO, 0.25);
+    let material = |sheen| Material { sheen, ..Material::matte("felt", Vec3::ONE) };
     let cases = [
         (None, None, Some(red), Some(red)),
         (None, None, Some(black), None),
@@ -22,13 +18,20 @@ fn settings_give_every_material_a_sheen() {
         (Some(0.75), None, Some(red), Some(Sheen { roughness: 0.75, ..red })),
         (Some(0.0), None, Some(red), Some(Sheen { roughness: 0.0, ..red })),
         (None, Some(Vec3::Y), Some(red), Some(Sheen { color: Vec3::Y, ..red })),
-        (Some(0.75), None, None, Some(Sheen { color: Vec3::ONE, roughness: 0.75 })),
-        (Some(0.75), None, Some(black), Some(Sheen { color: Vec3::ONE, roughness: 0.75 })),
-        (None, Some(Vec3::Y), None, Some(Sheen { color: Vec3::Y, roughness: 0.5 })),
-        (None, Some(Vec3::ZERO), Some(red), Some(Sheen { color: Vec3::ZERO, roughness: 0.25 })),
+        (Some(0.75), None, None, Some(Sheen::new(Vec3::ONE, 0.75))),
+        (Some(0.75), None, Some(black), Some(Sheen::new(Vec3::ONE, 0.75))),
+        (None, Some(Vec3::Y), None, Some(Sheen::new(Vec3::Y, 0.5))),
+        (None, Some(Vec3::ZERO), Some(red), Some(Sheen::new(Vec3::ZERO, 0.25))),
     ];
     for (alpha, sheen_color, own, expected) in cases {
-        let settings = Settings { alpha, sheen_color, ..Settings::default() };
-        assert_eq!(settings.sheen_of(&material(own)), expected, "{alpha:?} {sheen_color:?} {own:?}");
+        let overrides = Overrides { alpha, sheen_color, ..Overrides::default() };
+        let named = BTreeMap::from([("felt".to_owned(), overrides)]);
+        for settings in [
+            Settings { overrides, ..Settings::default() },
+            Settings { material_overrides: named, ..Settings::default() },
+        ] {
+            let found = settings.sheen_of(&material(own)).map(|look| look.sheen);
+            assert_eq!(found, expected, "{alpha:?} {sheen_color:?} {own:?}");
+        }
     }
 }

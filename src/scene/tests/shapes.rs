@@ -50,8 +50,7 @@ pub fn sphere(n: u32) -> Mesh {
 
 /// The mesh once, grey, as `world_from_mesh` places it.
 pub fn scene(mesh: Mesh, world_from_mesh: Mat4) -> Scene {
-    let material =
-        Material { name: String::new(), base_color: Vec3::ONE, sheen: None, emission: Vec3::ZERO, double_sided: false };
+    let material = Material::matte("", Vec3::ONE);
     Scene {
         meshes: vec![mesh],
         materials: vec![material],

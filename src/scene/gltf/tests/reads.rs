@@ -89,7 +89,7 @@ fn materials_have_gltfs_defaults() {
     let scene = file.read();
     let material = &scene.materials[0];
     assert_eq!((material.base_color, material.emission, material.double_sided), (Vec3::ONE, Vec3::ZERO, false));
-    assert_eq!(material.sheen, Some(Sheen { color: Vec3::ZERO, roughness: 0.0 }));
+    assert_eq!(material.sheen, Some(Sheen::new(Vec3::ZERO, 0.0)));
     // A primitive without a material has one of its own.
     file.json["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
     let scene = file.read();

@@ -1,0 +1,65 @@
+use glam::Affine2;
+
+/// A decoded picture: 8 bits a channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// For messages.
+    pub name: String,
+    pub width: u32,
+    pub height: u32,
+    /// `width * height` texels of red, green, blue, alpha; rows from the top, where v = 0.
+    pub texels: Vec<[u8; 4]>,
+}
+
+/// An image and how it is looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Texture {
+    /// Index into `Scene::images`.
+    pub image: usize,
+    pub sampler: Sampler,
+}
+
+/// How a texture is continued and filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    /// Along u, along v.
+    pub wrap: [Wrap; 2],
+    pub magnify: Filter,
+    pub minify: Filter,
+    /// Between mipmaps; none where only the full image is used.
+    pub mipmaps: Option<Filter>,
+}
+
+impl Sampler {
+    /// What glTF leaves open: repeated, linear, with mipmaps.
+    pub const DEFAULT: Self = Self {
+        wrap: [Wrap::Repeat; 2],
+        magnify: Filter::Linear,
+        minify: Filter::Linear,
+        mipmaps: Some(Filter::Linear),
+    };
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    Repeat,
+    Mirror,
+    Clamp,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Filter {
+    Nearest,
+    Linear,
+}
+
+/// A texture as a material uses it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureUse {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Which of the mesh's sets of texture coordinates, 0 or 1.
+    pub tex_coord: usize,
+    /// KHR_texture_transform.
+    pub uv_from_tex_coord: Affine2,
+}
