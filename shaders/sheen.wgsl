@@ -27,3 +27,8 @@ fn sheen_lobe(table: texture_2d<f32>, alpha: f32, mu: f32) -> SheenLobe {
 fn sheen_base_weight(sheen_color: vec3<f32>, albedo: f32) -> f32 {
     return 1.0 - max(sheen_color.r, max(sheen_color.g, sheen_color.b)) * albedo;
 }
+
+// The same by OpenPBR's rule, which does not look at the colour: weight is how much of the surface the layer covers.
+fn sheen_base_weight_openpbr(weight: f32, albedo: f32) -> f32 {
+    return 1.0 - weight * albedo;
+}

@@ -1,13 +1,13 @@
-// The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all polygon lights.
-// Concatenated with ltc.wgsl and sheen.wgsl.
+// The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all lights.
+// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, passes/material.wgsl and passes/lights.wgsl.
 
 struct SurfacesFrame {
     clip_from_world: mat4x4f,
     // The eye's place (w = 1) or the direction towards it (w = 0).
     eye: vec4f,
-    // Weights, 0 or 1, of sheen, diffuse, emission.
-    lobes: vec3f,
-    polygon_count: u32,
+    // Weights, 0 or 1, of sheen, diffuse, specular, emission.
+    lobes: vec4f,
+    ambient: vec3f,
     // What radiance is multiplied by before it is stored, so that the range of the targets' floats is the screen's.
     gain: f32,
 }
@@ -15,31 +15,27 @@ struct SurfacesFrame {
 struct SurfacesInstance {
     world_from_mesh: mat4x4f,
     normal_from_mesh: mat3x3f,
+    // Multiplies the emission texture; without one it is the radiance itself.
     emission: vec3f,
     material: u32,
+    // -1 where world_from_mesh mirrors, else 1.
+    handedness: f32,
 }
 
-struct SurfacesMaterial {
-    base_color: vec3f,
-    alpha: f32,
-    sheen_color: vec3f,
-}
-
-struct SurfacesPolygon {
-    radiance: vec3f,
-    two_sided: u32,
-    normal: vec3f,
-    first_vertex: u32,
-    end_vertex: u32,
-}
+// What a material has; the rest is compiled away.
+override SURFACES_SHEEN: bool = true;
+override SURFACES_SPECULAR: bool = true;
+override SURFACES_RECIPROCAL: bool = true;
+override SURFACES_UNLIT: bool = false;
+override SURFACES_MASK: bool = false;
+override SURFACES_BLEND: bool = false;
+// Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.
+override SURFACES_FILTERED: bool = true;
 
 @group(0) @binding(0) var<uniform> surfaces_frame: SurfacesFrame;
 @group(0) @binding(1) var surfaces_sheen_table: texture_2d<f32>;
-@group(0) @binding(2) var<storage, read> surfaces_instances: array<SurfacesInstance>;
-@group(0) @binding(3) var<storage, read> surfaces_materials: array<SurfacesMaterial>;
-@group(0) @binding(4) var<storage, read> surfaces_polygons: array<SurfacesPolygon>;
-// Outlines one after another; w = 1 marks the first vertex of each, which comes again at its end.
-@group(0) @binding(5) var<storage, read> surfaces_light_vertices: array<vec4f>;
+@group(0) @binding(2) var surfaces_ggx_table: texture_2d<f32>;
+@group(0) @binding(3) var<storage, read> surfaces_instances: array<SurfacesInstance>;
 
 struct SurfacesVarying {
     @builtin(position) position: vec4f,
@@ -50,21 +46,54 @@ struct SurfacesVarying {
     @location(3) @interpolate(flat) material: u32,
 }
 
+// The same with what textures and vertex colours need.
+struct SurfacesTexturedVarying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(perspective, centroid) p_world: vec3f,
+    @location(1) @interpolate(perspective, centroid) n_world: vec3f,
+    @location(2) @interpolate(flat) emission: vec3f,
+    @location(3) @interpolate(flat) material: u32,
+    @location(4) @interpolate(perspective, centroid) t_world: vec4f,
+    @location(5) @interpolate(perspective, centroid) tex_coords: vec4f,
+    @location(6) @interpolate(perspective, centroid) color: vec4f,
+}
+
+fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying {
+    let p_world = surfaces_instances[index].world_from_mesh * vec4f(position, 1.0);
+    // Unit length before interpolation, whatever the transform's scale.
+    let n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
+    let clip = surfaces_frame.clip_from_world * p_world;
+    return SurfacesVarying(
+        clip, p_world.xyz, n_world, surfaces_instances[index].emission, surfaces_instances[index].material,
+    );
+}
+
 @vertex
 fn surfaces_vertex(
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @builtin(instance_index) index: u32,
 ) -> SurfacesVarying {
-    let p_world = surfaces_instances[index].world_from_mesh * vec4f(position, 1.0);
-    var out: SurfacesVarying;
-    out.position = surfaces_frame.clip_from_world * p_world;
-    out.p_world = p_world.xyz;
-    // Unit length before interpolation, whatever the transform's scale.
-    out.n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
-    out.emission = surfaces_instances[index].emission;
-    out.material = surfaces_instances[index].material;
-    return out;
+    return surfaces_place(position, normal, index);
+}
+
+@vertex
+fn surfaces_vertex_textured(
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) tex_coord_0: vec2f,
+    @location(4) tex_coord_1: vec2f,
+    @location(5) color: vec4f,
+    @builtin(instance_index) index: u32,
+) -> SurfacesTexturedVarying {
+    let bare = surfaces_place(position, normal, index);
+    let t_world = surfaces_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
+    let side = tangent.w * surfaces_instances[index].handedness;
+    return SurfacesTexturedVarying(
+        bare.position, bare.p_world, bare.n_world, bare.emission, bare.material,
+        vec4f(t_world, side), vec4f(tex_coord_0, tex_coord_1), color,
+    );
 }
 
 // A zero vector, which no direction stands for, comes back as it is.
@@ -73,49 +102,79 @@ fn surfaces_normalize(v: vec3f) -> vec3f {
     return v * select(0.0, inverseSqrt(length_squared), length_squared > 0.0);
 }
 
-// The error of interpolated positions, as a share of the largest coordinate: a few roundings of f32. Points no further
-// from a light's plane are in it, so that a light does not shine on itself.
-const SURFACES_POSITION_ERROR = 1e-6;
-
-// Form factors of one light for both lobes: x the diffuse one, y the sheen.
-fn surfaces_form_factors(polygon: SurfacesPolygon, p_world: vec3f, local_from_world: mat3x3f, m_inv: mat3x3f) -> vec2f {
-    let to_vertex = surfaces_light_vertices[polygon.first_vertex].xyz - p_world;
-    let side = ltc_side(polygon.normal, to_vertex, polygon.two_sided != 0u);
-    let size = abs(p_world) + abs(to_vertex);
-    let error = SURFACES_POSITION_ERROR * max(size.x, max(size.y, size.z));
-    if side == 0.0 || abs(dot(polygon.normal, to_vertex)) <= error {
-        return vec2f(0.0);
-    }
-    let identity = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    var sums = vec2f(0.0);
-    var outline = ltc_begin(local_from_world * to_vertex);
-    for (var index = polygon.first_vertex + 1u; index < polygon.end_vertex; index++) {
-        let vertex = surfaces_light_vertices[index];
-        let p_local = local_from_world * (vertex.xyz - p_world);
-        if vertex.w != 0.0 {
-            outline = ltc_begin(p_local);
-        } else {
-            outline = ltc_next(outline, p_local);
-            sums += vec2f(ltc_edge(outline, identity), ltc_edge(outline, m_inv));
-        }
-    }
-    return vec2f(ltc_form_factor(sums.x, side), ltc_form_factor(sums.y, side));
+@fragment
+fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let surface = material_plain(in.material, in.emission, in.n_world);
+    return surfaces_radiance(surface, in.p_world, in.n_world, front_facing);
 }
 
 @fragment
-fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
-    let material = surfaces_materials[in.material];
-    let normal = surfaces_normalize(in.n_world) * select(-1.0, 1.0, front_facing);
-    let view = surfaces_normalize(surfaces_frame.eye.xyz - surfaces_frame.eye.w * in.p_world);
-    let local_from_world = ltc_frame(normal, view);
-    let lobe = sheen_lobe(surfaces_sheen_table, material.alpha, max(dot(normal, view), 0.0));
-    let sheen_weight = surfaces_frame.lobes.x * lobe.albedo * material.sheen_color;
-    let base_weight = surfaces_frame.lobes.y * sheen_base_weight(material.sheen_color, lobe.albedo) * material.base_color;
-    var radiance = surfaces_frame.lobes.z * in.emission;
-    for (var index = 0u; index < surfaces_frame.polygon_count; index++) {
-        let polygon = surfaces_polygons[index];
-        let form_factors = surfaces_form_factors(polygon, in.p_world, local_from_world, lobe.m_inv);
-        radiance += polygon.radiance * (base_weight * form_factors.x + sheen_weight * form_factors.y);
+fn surfaces_fragment_textured(
+    in: SurfacesTexturedVarying,
+    @builtin(front_facing) front_facing: bool,
+) -> @location(0) vec4f {
+    let surface = material_textured(in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color);
+    return surfaces_radiance(surface, in.p_world, in.n_world, front_facing);
+}
+
+// The radiance of a surface's point, and its opacity where that counts.
+fn surfaces_radiance(surface: MaterialSurface, p_world: vec3f, n_world: vec3f, front_facing: bool) -> vec4f {
+    let view = surfaces_normalize(surfaces_frame.eye.xyz - surfaces_frame.eye.w * p_world);
+    let side = select(-1.0, 1.0, front_facing);
+    let normal = side * surfaces_normalize(surface.normal);
+    var mu = max(dot(normal, view), 0.0);
+    var roughness = surface.roughness;
+    if SURFACES_FILTERED {
+        mu = surfaces_visible_mean(dot(normal, view));
+        roughness = surfaces_filtered_roughness(roughness, surface.normal, normal);
     }
-    return vec4f(surfaces_frame.gain * radiance, 1.0);
+    if SURFACES_MASK && surface.opacity < surface.alpha_cutoff {
+        discard;
+    }
+    let opacity = select(1.0, surface.opacity, SURFACES_BLEND);
+    if SURFACES_UNLIT {
+        return vec4f(opacity * surfaces_frame.gain * surface.base_color, opacity);
+    }
+    let sheen = sheen_lobe(surfaces_sheen_table, surface.sheen_alpha, mu);
+    let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);
+    let lights = LightsReceiver(
+        p_world, normal, side * surfaces_normalize(n_world), ltc_frame(normal, view), sheen.m_inv, ggx.m_inv,
+        surface.sheen_color, surface.sheen_alpha, surface.layering,
+    );
+    var specular = vec3f(0.0);
+    var diffuse = (1.0 - surface.metallic) * surface.base_color;
+    if SURFACES_SPECULAR {
+        let f0 = mix(surface.f0, surface.base_color, surface.metallic);
+        let f90 = vec3f(mix(surface.f90, 1.0, surface.metallic));
+        specular = surfaces_frame.lobes.z * ggx_albedo(ggx, f0, f90);
+        diffuse *= ggx_base_weight(ggx_albedo(ggx, surface.f0, vec3f(surface.f90)));
+    }
+    diffuse *= surfaces_frame.lobes.y;
+    let base_weight = material_base_weight(surface, sheen.albedo);
+    let reflected = surface.sheen_color * sheen.albedo * surfaces_frame.lobes.x;
+    let incident = lights_incident(lights, base_weight);
+    let ambient = lights_ambient(lights, base_weight) * surface.occlusion * surfaces_frame.ambient;
+    let radiance = surfaces_frame.lobes.w * surface.emission
+        + diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
+        + reflected * (incident.sheen + surface.occlusion * surfaces_frame.ambient);
+    return vec4f(opacity * surfaces_frame.gain * radiance, opacity);
+}
+
+// Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. Where the sheen is
+// brightest a sample of it there would be anything between; this is the mean.
+fn surfaces_visible_mean(mu: f32) -> f32 {
+    let half_width = min(0.5 * fwidth(mu), 0.5);
+    return 0.5 * (max(mu - half_width, 0.0) + max(mu + half_width, 0.0));
+}
+
+// Normals that vary over a pixel widen the specular lobe (Tokuyoshi and Kaplanyan 2019, eqs. 4 and 5: the half vector's variance from
+// the normal's derivatives), as do those that a mipmap has averaged, which are shorter than 1 (Toksvig 2005).
+fn surfaces_filtered_roughness(roughness: f32, mean_normal: vec3f, normal: vec3f) -> f32 {
+    let du = dpdx(normal);
+    let dv = dpdy(normal);
+    let across = 0.25 * (dot(du, du) + dot(dv, dv));
+    let size = clamp(length(mean_normal), 0.5, 1.0);
+    let variance = min(across + 2.0 * (1.0 - size) / size * f32(MATERIAL_NORMAL), 0.18);
+    let alpha = roughness * roughness;
+    return sqrt(sqrt(min(alpha * alpha + variance, 1.0)));
 }

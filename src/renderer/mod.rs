@@ -5,12 +5,18 @@
 
 pub mod device;
 mod display;
+mod draws;
 #[cfg(test)]
 mod layout;
+mod lights;
+mod materials;
 mod offscreen;
+mod pipelines;
 mod resident;
 mod surfaces;
+mod tables;
 mod targets;
+mod textures;
 mod view;
 
 pub use device::{DeviceError, Gpu};
@@ -70,16 +76,19 @@ impl Renderer {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let resident = Resident::new(&gpu.device, scene, settings)?;
-        let surfaces = SurfacesPass::new(&gpu.device, &gpu.queue, format.radiance, table, &resident);
+        let resident = Resident::new(gpu, scene, settings)?;
+        let surfaces = SurfacesPass::new(gpu, format.radiance, table, &resident);
         let display = DisplayPass::new(&gpu.device, format.radiance, format.output, format.measured);
         Ok(Self { format, resident, surfaces, display, targets: None })
     }
 
     /// Takes over changed materials, lights, places and settings of the same scene.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) {
-        self.resident.update(&gpu.queue, scene, settings);
+    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
+        if self.resident.update(gpu, scene, settings)? {
+            self.surfaces.rebind(&gpu.device, &self.resident);
+        }
         self.surfaces.prepare(&gpu.device, &self.resident);
+        Ok(())
     }
 
     /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which stay for `show`.

@@ -1,206 +1,154 @@
-//! A scene on the device: meshes once, and what the user may change (materials, lights, places) whenever it changes.
+//! A scene on the device: meshes and textures once, and what the user may change (materials, lights, places) whenever it changes.
 
-use std::collections::BTreeMap;
-
-use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4};
+use bytemuck::NoUninit;
+use glam::{Vec2, Vec4};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{Buffer, BufferUsages, Device, Queue};
+use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 
-use super::RenderError;
-use crate::scene::{Light, Material, Mesh, Scene, Settings};
+use super::draws::{Batch, Draws};
+use super::lights::{GpuCounts, polygons, punctual};
+use super::materials::factors;
+use super::{Gpu, RenderError, textures};
+use crate::scene::{Bounds, Mesh, Scene, Settings};
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(super) struct GpuVertex {
-    position: Vec3,
-    normal: Vec3,
-}
-
-/// `SurfacesInstance` of `surfaces.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(super) struct GpuInstance {
-    world_from_mesh: Mat4,
-    /// Columns of the matrix that takes normals to the world; up to a positive factor the inverse transpose.
-    normal_from_mesh: [Vec4; 3],
-    /// Radiance that the surface emits: its light's, or its material's.
-    emission: Vec3,
-    material: u32,
-}
-
-/// `SurfacesMaterial` of `surfaces.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(super) struct GpuMaterial {
-    base_color: Vec3,
-    alpha: f32,
-    sheen_color: Vec3,
-    padding: u32,
-}
-
-/// `SurfacesPolygon` of `surfaces.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub(super) struct GpuPolygon {
-    radiance: Vec3,
-    two_sided: u32,
-    normal: Vec3,
-    first_vertex: u32,
-    end_vertex: u32,
-    padding: [u32; 3],
-}
-
-/// How a group of instances is rasterised.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Facing {
-    /// Back faces are drawn.
-    pub double_sided: bool,
-    /// The transform mirrors: front faces wind clockwise.
-    pub mirrored: bool,
-}
-
-/// Instances of one mesh that are drawn by one call: `instances[first..first + count]`.
-pub(super) struct Batch {
-    pub facing: Facing,
-    pub mesh: usize,
-    pub first: u32,
-    pub count: u32,
-}
-
+/// A mesh's vertices, an attribute a buffer, so that none pays for those that it lacks.
 pub(super) struct MeshBuffers {
-    pub vertices: Buffer,
+    pub positions: Buffer,
+    pub normals: Buffer,
+    pub tangents: Option<Buffer>,
+    pub tex_coords: [Option<Buffer>; 2],
+    pub colors: Option<Buffer>,
     pub indices: Buffer,
     pub index_count: u32,
 }
 
-/// The scene's buffers.
+/// The scene's buffers and textures.
 pub(super) struct Resident {
     pub meshes: Vec<MeshBuffers>,
+    mesh_bounds: Vec<Bounds>,
     pub instances: Buffer,
     pub materials: Buffer,
+    pub counts: Buffer,
     pub polygons: Buffer,
     pub light_vertices: Buffer,
-    /// What is drawn, by facing, then mesh; hidden lights left out.
-    pub batches: Vec<Batch>,
-    pub polygon_count: u32,
+    pub punctual: Buffer,
+    /// What meshes have in place of the attributes that they lack: zero, and white.
+    pub constants: Buffer,
+    pub material_layout: BindGroupLayout,
+    /// By material; the last is that of all without textures.
+    material_groups: Vec<BindGroup>,
+    pub draws: Draws,
 }
 
 impl Resident {
-    pub fn new(device: &Device, scene: &Scene, settings: &Settings) -> Result<Self, RenderError> {
-        let (instances, batches) = instances(scene, settings);
-        let (polygons, light_vertices) = polygons(&scene.lights);
-        let storage = |label: &'static str, contents: &[u8]| {
-            let limit = device.limits().max_storage_buffer_binding_size;
-            buffer(device, label, contents, BufferUsages::STORAGE | BufferUsages::COPY_DST, limit)
+    pub fn new(gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<Self, RenderError> {
+        let Gpu { device, queue, .. } = gpu;
+        let mesh_bounds: Vec<Bounds> = scene.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
+        let contents = Contents::new(scene, settings, &mesh_bounds);
+        let limit = device.limits().max_storage_buffer_binding_size;
+        let storage = |label: &'static str, bytes: &[u8]| {
+            buffer(device, label, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST, limit)
         };
+        let material_layout = textures::bind_group_layout(device);
+        let material_groups = textures::bind_groups((device, queue), &material_layout, scene);
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let constants = [Vec4::ZERO, Vec4::ONE];
         Ok(Self {
-            meshes: scene.meshes.iter().map(|mesh| mesh_buffers(device, mesh)).collect::<Result<_, _>>()?,
-            instances: storage("the instances", bytemuck::cast_slice(&instances))?,
-            materials: storage("the materials", bytemuck::cast_slice(&materials(scene, settings)))?,
-            polygons: storage("the lights", bytemuck::cast_slice(&polygons))?,
-            light_vertices: storage("the lights' outlines", bytemuck::cast_slice(&light_vertices))?,
-            batches,
-            polygon_count: polygons.len() as u32,
+            meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
+            instances: storage("the instances", bytemuck::cast_slice(&contents.draws.instances))?,
+            materials: storage("the materials", &contents.materials)?,
+            counts: buffer(device, "lights", bytemuck::bytes_of(&contents.counts), uniform, limit)?,
+            polygons: storage("the lights", &contents.polygons)?,
+            light_vertices: storage("the lights' outlines", &contents.light_vertices)?,
+            punctual: storage("the lights without extent", &contents.punctual)?,
+            constants: buffer(device, "constants", bytemuck::cast_slice(&constants), BufferUsages::VERTEX, limit)?,
+            material_layout,
+            material_groups,
+            draws: contents.draws,
+            mesh_bounds,
         })
     }
 
-    /// Takes over the materials', lights' and instances' present values. Their number and the meshes are as they were.
-    pub fn update(&mut self, queue: &Queue, scene: &Scene, settings: &Settings) {
-        let (instances, batches) = instances(scene, settings);
-        let (polygons, light_vertices) = polygons(&scene.lights);
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
-        queue.write_buffer(&self.materials, 0, bytemuck::cast_slice(&materials(scene, settings)));
-        queue.write_buffer(&self.polygons, 0, bytemuck::cast_slice(&polygons));
-        queue.write_buffer(&self.light_vertices, 0, bytemuck::cast_slice(&light_vertices));
-        self.batches = batches;
-    }
-}
-
-/// All instances sorted by how they are drawn, and the calls that draw them.
-fn instances(scene: &Scene, settings: &Settings) -> (Vec<GpuInstance>, Vec<Batch>) {
-    let mut lights = vec![None; scene.instances.len()];
-    scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-    let mut groups: BTreeMap<(Facing, usize), Vec<GpuInstance>> = BTreeMap::new();
-    let mut unseen = Vec::new();
-    for (instance, light) in scene.instances.iter().zip(lights) {
-        let world_from_mesh = instance.world_from_mesh;
-        let material = scene.meshes[instance.mesh].material;
-        let facing = Facing { double_sided: scene.materials[material].double_sided, mirrored: instance.mirrors() };
-        let gpu_instance = GpuInstance {
-            world_from_mesh,
-            normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
-            emission: light.map_or(scene.materials[material].emission, |light| light.radiance),
-            material: material as u32,
-        };
-        if light.is_some() && !settings.lights_visible {
-            &mut unseen
-        } else {
-            groups.entry((facing, instance.mesh)).or_default()
-        }
-        .push(gpu_instance);
-    }
-    let mut sorted = Vec::with_capacity(scene.instances.len());
-    let mut batches = Vec::with_capacity(groups.len());
-    for ((facing, mesh), group) in groups {
-        batches.push(Batch { facing, mesh, first: sorted.len() as u32, count: group.len() as u32 });
-        sorted.extend(group);
-    }
-    // Kept, so that the buffer's length does not depend on what is visible.
-    sorted.extend(unseen);
-    (sorted, batches)
-}
-
-fn materials(scene: &Scene, settings: &Settings) -> Vec<GpuMaterial> {
-    let convert = |material: &Material| {
-        let sheen = settings.sheen_of(material);
-        GpuMaterial {
-            base_color: material.base_color,
-            alpha: sheen.map_or(0.0, |look| look.roughness_map.alpha_from_roughness(look.sheen.roughness)),
-            sheen_color: sheen.map_or(Vec3::ZERO, |look| look.sheen.weight * look.sheen.color),
-            padding: 0,
-        }
-    };
-    scene.materials.iter().map(convert).collect()
-}
-
-/// The lights' polygons, and the vertices of their outlines: each outline's first vertex is marked by w = 1 and comes
-/// again at its end.
-fn polygons(lights: &[Light]) -> (Vec<GpuPolygon>, Vec<Vec4>) {
-    let mut polygons = Vec::new();
-    let mut vertices: Vec<Vec4> = Vec::new();
-    for light in lights {
-        for polygon in &light.polygons {
-            let first_vertex = vertices.len() as u32;
-            for contour in &polygon.contours {
-                let closed = contour.iter().chain(contour.first());
-                vertices.extend(closed.enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+    /// Takes over the materials', lights' and instances' present values; says whether buffers were made anew, which happens where there
+    /// are more of them than there were. The meshes and textures are as they were.
+    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<bool, RenderError> {
+        let contents = Contents::new(scene, settings, &self.mesh_bounds);
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        gpu.queue.write_buffer(&self.counts, 0, bytemuck::bytes_of(&contents.counts));
+        let mut grown = false;
+        for (label, buffer_of, bytes) in [
+            ("the instances", &mut self.instances, bytemuck::cast_slice(&contents.draws.instances)),
+            ("the materials", &mut self.materials, &contents.materials),
+            ("the lights", &mut self.polygons, &contents.polygons),
+            ("the lights' outlines", &mut self.light_vertices, &contents.light_vertices),
+            ("the lights without extent", &mut self.punctual, &contents.punctual),
+        ] {
+            if bytes.len() as u64 <= buffer_of.size() {
+                gpu.queue.write_buffer(buffer_of, 0, bytes);
+            } else {
+                let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+                *buffer_of = buffer(&gpu.device, label, bytes, usage, limit)?;
+                grown = true;
             }
-            polygons.push(GpuPolygon {
-                radiance: light.radiance,
-                two_sided: light.two_sided.into(),
-                normal: polygon.normal,
-                first_vertex,
-                end_vertex: vertices.len() as u32,
-                padding: [0; 3],
-            });
         }
+        self.draws = contents.draws;
+        Ok(grown)
     }
-    (polygons, vertices)
+
+    /// The textures of a batch.
+    pub fn textures(&self, batch: &Batch) -> &BindGroup {
+        &self.material_groups[batch.material.unwrap_or(self.material_groups.len() - 1)]
+    }
 }
 
-fn mesh_buffers(device: &Device, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
-    let vertices: Vec<GpuVertex> =
-        mesh.positions.iter().zip(&mesh.normals).map(|(&position, &normal)| GpuVertex { position, normal }).collect();
-    let limit = device.limits().max_buffer_size;
+/// What the buffers hold.
+struct Contents {
+    draws: Draws,
+    materials: Vec<u8>,
+    counts: GpuCounts,
+    polygons: Vec<u8>,
+    light_vertices: Vec<u8>,
+    punctual: Vec<u8>,
+}
+
+impl Contents {
+    fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
+        let (polygons, light_vertices) = polygons(&scene.lights);
+        let punctual = punctual(&scene.punctual_lights);
+        let materials: Vec<_> = scene.materials.iter().map(|material| factors(material, settings)).collect();
+        Self {
+            draws: Draws::new(scene, settings, mesh_bounds),
+            materials: bytes(&materials),
+            counts: GpuCounts { polygons: polygons.len() as u32, punctual: punctual.len() as u32 },
+            polygons: bytes(&polygons),
+            light_vertices: bytes(&light_vertices),
+            punctual: bytes(&punctual),
+        }
+    }
+}
+
+fn bytes<T: NoUninit>(values: &[T]) -> Vec<u8> {
+    bytemuck::cast_slice(values).to_vec()
+}
+
+fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
+    let limit = gpu.device.limits().max_buffer_size;
+    let filled = |bytes: &[u8], usage| buffer(&gpu.device, &mesh.name, bytes, usage, limit);
+    let vertices = |bytes: &[u8]| filled(bytes, BufferUsages::VERTEX);
+    let some = |bytes: &[u8]| (!bytes.is_empty()).then(|| vertices(bytes)).transpose();
+    let [first, second]: [&[Vec2]; 2] = mesh.tex_coords.each_ref().map(Vec::as_slice);
     Ok(MeshBuffers {
-        vertices: buffer(device, &mesh.name, bytemuck::cast_slice(&vertices), BufferUsages::VERTEX, limit)?,
-        indices: buffer(device, &mesh.name, bytemuck::cast_slice(&mesh.indices), BufferUsages::INDEX, limit)?,
+        positions: vertices(bytemuck::cast_slice(&mesh.positions))?,
+        normals: vertices(bytemuck::cast_slice(&mesh.normals))?,
+        tangents: some(bytemuck::cast_slice(&mesh.tangents))?,
+        tex_coords: [some(bytemuck::cast_slice(first))?, some(bytemuck::cast_slice(second))?],
+        colors: some(bytemuck::cast_slice(&mesh.colors))?,
+        indices: filled(bytemuck::cast_slice(&mesh.indices), BufferUsages::INDEX)?,
         index_count: mesh.indices.len() as u32,
     })
 }
 
-/// A buffer with these contents; an empty one, which cannot be bound, is given 256 bytes of zeros.
+/// A buffer with these contents; an empty one, which cannot be bound, is given 512 bytes of zeros.
 fn buffer(
     device: &Device,
     name: &str,
@@ -212,27 +160,6 @@ fn buffer(
     if bytes > limit {
         return Err(RenderError::TooLarge { what: name.to_owned(), bytes, limit });
     }
-    let contents = if contents.is_empty() { &[0; 256] } else { contents };
+    let contents = if contents.is_empty() { &[0; 512] } else { contents };
     Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(name), contents, usage }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::layout::{differences, members};
-    use super::super::surfaces::SURFACES_WGSL;
-    use super::*;
-
-    #[test]
-    fn structs_stand_as_the_shader_reads_them() {
-        let instance = members!(GpuInstance { world_from_mesh, normal_from_mesh, emission, material });
-        let material = members!(GpuMaterial { base_color, alpha, sheen_color });
-        let polygon = members!(GpuPolygon { radiance, two_sided, normal, first_vertex, end_vertex });
-        for (name, size, members) in [
-            ("SurfacesInstance", size_of::<GpuInstance>(), &instance[..]),
-            ("SurfacesMaterial", size_of::<GpuMaterial>(), material),
-            ("SurfacesPolygon", size_of::<GpuPolygon>(), polygon),
-        ] {
-            assert_eq!(differences(SURFACES_WGSL, name, size, members), [""; 0]);
-        }
-    }
 }

@@ -1,22 +1,29 @@
 //! The first pass: every surface's radiance into the targets.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
-use wgpu::util::DeviceExt;
-use wgpu::{BindGroup, BindGroupLayout, CommandEncoder, Device, Queue, RenderPipeline};
+use wgpu::{BindGroup, BindGroupLayout, Device, Face, Queue, RenderPass, RenderPipeline, TextureView};
 
-use super::resident::{Facing, GpuVertex, Resident};
-use super::targets::{DEPTH_FORMAT, RadianceFormat, Targets};
+use super::Gpu;
+use super::draws::{Batch, Frustum, Variant};
+use super::pipelines::Pipelines;
+use super::resident::{MeshBuffers, Resident};
+use super::tables;
+use super::targets::{RadianceFormat, Targets};
 use super::view::View;
 use crate::scene::Settings;
 use crate::table::LtcTable;
 
-/// The pass' WGSL: the files that engines copy, and this program's own entry points.
+/// The pass' WGSL: the files that engines copy, and this program's own bindings and entry points.
 pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/ltc.wgsl"),
     include_str!("../../shaders/sheen.wgsl"),
+    include_str!("../../shaders/ggx.wgsl"),
+    include_str!("../../shaders/passes/material.wgsl"),
+    include_str!("../../shaders/passes/lights.wgsl"),
     include_str!("../../shaders/passes/surfaces.wgsl"),
 );
 
@@ -26,30 +33,24 @@ pub const SURFACES_WGSL: &str = concat!(
 struct Frame {
     clip_from_world: Mat4,
     eye: Vec4,
-    lobes: Vec3,
-    polygon_count: u32,
+    lobes: Vec4,
+    ambient: Vec3,
     gain: f32,
-    padding: [u32; 3],
 }
 
 /// Draws a scene's surfaces.
 pub struct SurfacesPass {
     layout: BindGroupLayout,
-    pipelines: HashMap<Facing, RenderPipeline>,
-    shader: wgpu::ShaderModule,
-    radiance: RadianceFormat,
+    made: HashMap<(Variant, Option<Face>), RenderPipeline>,
+    pipelines: Pipelines,
     frame: wgpu::Buffer,
+    tables: [TextureView; 2],
     bind_group: BindGroup,
 }
 
 impl SurfacesPass {
-    pub(super) fn new(
-        device: &Device,
-        queue: &Queue,
-        radiance: RadianceFormat,
-        table: &LtcTable,
-        resident: &Resident,
-    ) -> Self {
+    pub(super) fn new(gpu: &Gpu, radiance: RadianceFormat, table: &LtcTable, resident: &Resident) -> Self {
+        let device = &gpu.device;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("surfaces"),
             source: wgpu::ShaderSource::Wgsl(SURFACES_WGSL.into()),
@@ -61,25 +62,38 @@ impl SurfacesPass {
             mapped_at_creation: false,
         });
         let layout = bind_group_layout(device);
-        let sheen_table = table_texture(device, queue, table);
-        let bind_group = bind_group(device, &layout, &frame, &sheen_table, resident);
-        let mut pass = Self { layout, pipelines: HashMap::new(), shader, radiance, frame, bind_group };
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("surfaces"),
+            bind_group_layouts: &[Some(&layout), Some(&resident.material_layout)],
+            immediate_size: 0,
+        });
+        let tables = [tables::sheen(gpu, table), tables::ggx(gpu)];
+        let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
+        let pipelines = Pipelines { shader, layout: pipeline_layout, radiance };
+        let mut pass = Self { layout, made: HashMap::new(), pipelines, frame, tables, bind_group };
         pass.prepare(device, resident);
         pass
     }
 
     /// Makes the pipelines that the scene needs and that are not there yet.
     pub(super) fn prepare(&mut self, device: &Device, resident: &Resident) {
-        for batch in &resident.batches {
-            let make = || pipeline(device, &self.shader, &self.layout, self.radiance, batch.facing);
-            self.pipelines.entry(batch.facing).or_insert_with(make);
+        for batch in &resident.draws.batches {
+            for &culled in culled_faces(&batch.variant) {
+                let make = || self.pipelines.make(device, &batch.variant, culled);
+                self.made.entry((batch.variant, culled)).or_insert_with(make);
+            }
         }
+    }
+
+    /// Takes over buffers that were made anew.
+    pub(super) fn rebind(&mut self, device: &Device, resident: &Resident) {
+        self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);
     }
 
     pub(super) fn encode(
         &self,
         queue: &Queue,
-        encoder: &mut CommandEncoder,
+        encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         resident: &Resident,
         (view, settings, gain): (&View, &Settings, f32),
@@ -89,10 +103,9 @@ impl SurfacesPass {
         let frame = Frame {
             clip_from_world: view.clip_from_world,
             eye: view.eye,
-            lobes: Vec3::new(weight(lobes.sheen), weight(lobes.diffuse), weight(lobes.emission)),
-            polygon_count: resident.polygon_count,
+            lobes: [lobes.sheen, lobes.diffuse, lobes.specular, lobes.emission].map(weight).into(),
+            ambient: settings.ambient,
             gain,
-            padding: [0; 3],
         };
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -111,39 +124,53 @@ impl SurfacesPass {
             ..Default::default()
         });
         pass.set_bind_group(0, &self.bind_group, &[]);
-        for batch in &resident.batches {
-            let mesh = &resident.meshes[batch.mesh];
-            pass.set_pipeline(&self.pipelines[&batch.facing]);
-            pass.set_vertex_buffer(0, mesh.vertices.slice(..));
-            pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..mesh.index_count, 0, batch.first..batch.first + batch.count);
+        let frustum = Frustum::new(view.clip_from_world, view.eye);
+        for (batch, run) in resident.draws.opaque(&frustum) {
+            self.draw(&mut pass, resident, batch, run);
+        }
+        for (batch, run) in resident.draws.blended(&frustum) {
+            self.draw(&mut pass, resident, batch, run);
+        }
+    }
+
+    fn draw(&self, pass: &mut RenderPass, resident: &Resident, batch: &Batch, run: Range<u32>) {
+        let mesh = &resident.meshes[batch.mesh];
+        pass.set_bind_group(1, resident.textures(batch), &[]);
+        bind_vertices(pass, mesh, &resident.constants, &batch.variant);
+        pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for &culled in culled_faces(&batch.variant) {
+            pass.set_pipeline(&self.made[&(batch.variant, culled)]);
+            pass.draw_indexed(0..mesh.index_count, 0, run.clone());
         }
     }
 }
 
-/// The sheen's table at the full precision of its file; it is read without a sampler.
-fn table_texture(device: &Device, queue: &Queue, table: &LtcTable) -> wgpu::TextureView {
-    let [alphas, mus] = table.size();
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("sheen table"),
-        size: wgpu::Extent3d { width: alphas as u32, height: mus as u32, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
-    let texels = table.texels();
-    let order = wgpu::util::TextureDataOrder::LayerMajor;
-    let texture = device.create_texture_with_data(queue, &descriptor, order, bytemuck::cast_slice(&texels));
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+/// What each pass over a mesh leaves out: what is seen through on both sides is drawn from the back first.
+fn culled_faces(variant: &Variant) -> &'static [Option<Face>] {
+    match (variant.look.double_sided, variant.look.blend) {
+        (false, _) => &[Some(Face::Back)],
+        (true, false) => &[None],
+        (true, true) => &[Some(Face::Front), Some(Face::Back)],
+    }
+}
+
+fn bind_vertices(pass: &mut RenderPass, mesh: &MeshBuffers, constants: &wgpu::Buffer, variant: &Variant) {
+    pass.set_vertex_buffer(0, mesh.positions.slice(..));
+    pass.set_vertex_buffer(1, mesh.normals.slice(..));
+    if variant.attributes.any {
+        let [first, second] = &mesh.tex_coords;
+        for (slot, buffer) in (2..).zip([&mesh.tangents, first, second]) {
+            pass.set_vertex_buffer(slot, buffer.as_ref().map_or(constants.slice(..16), |buffer| buffer.slice(..)));
+        }
+        pass.set_vertex_buffer(5, mesh.colors.as_ref().map_or(constants.slice(16..), |buffer| buffer.slice(..)));
+    }
 }
 
 fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, BufferBindingType, ShaderStages};
     let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let storage = buffer(BufferBindingType::Storage { read_only: true });
+    let uniform = buffer(BufferBindingType::Uniform);
     let table = BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },
         view_dimension: wgpu::TextureViewDimension::D2,
@@ -153,12 +180,15 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("surfaces"),
         entries: &[
-            entry(0, ShaderStages::VERTEX_FRAGMENT, buffer(BufferBindingType::Uniform)),
+            entry(0, ShaderStages::VERTEX_FRAGMENT, uniform),
             entry(1, ShaderStages::FRAGMENT, table),
-            entry(2, ShaderStages::VERTEX, storage),
-            entry(3, ShaderStages::FRAGMENT, storage),
+            entry(2, ShaderStages::FRAGMENT, table),
+            entry(3, ShaderStages::VERTEX, storage),
             entry(4, ShaderStages::FRAGMENT, storage),
-            entry(5, ShaderStages::FRAGMENT, storage),
+            entry(5, ShaderStages::FRAGMENT, uniform),
+            entry(6, ShaderStages::FRAGMENT, storage),
+            entry(7, ShaderStages::FRAGMENT, storage),
+            entry(8, ShaderStages::FRAGMENT, storage),
         ],
     })
 }
@@ -166,8 +196,7 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
 fn bind_group(
     device: &Device,
     layout: &BindGroupLayout,
-    frame: &wgpu::Buffer,
-    sheen_table: &wgpu::TextureView,
+    (frame, [sheen, ggx]): (&wgpu::Buffer, &[TextureView; 2]),
     resident: &Resident,
 ) -> BindGroup {
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
@@ -176,61 +205,15 @@ fn bind_group(
         layout,
         entries: &[
             entry(0, frame.as_entire_binding()),
-            entry(1, wgpu::BindingResource::TextureView(sheen_table)),
-            entry(2, resident.instances.as_entire_binding()),
-            entry(3, resident.materials.as_entire_binding()),
-            entry(4, resident.polygons.as_entire_binding()),
-            entry(5, resident.light_vertices.as_entire_binding()),
+            entry(1, wgpu::BindingResource::TextureView(sheen)),
+            entry(2, wgpu::BindingResource::TextureView(ggx)),
+            entry(3, resident.instances.as_entire_binding()),
+            entry(4, resident.materials.as_entire_binding()),
+            entry(5, resident.counts.as_entire_binding()),
+            entry(6, resident.polygons.as_entire_binding()),
+            entry(7, resident.light_vertices.as_entire_binding()),
+            entry(8, resident.punctual.as_entire_binding()),
         ],
-    })
-}
-
-fn pipeline(
-    device: &Device,
-    shader: &wgpu::ShaderModule,
-    layout: &BindGroupLayout,
-    radiance: RadianceFormat,
-    facing: Facing,
-) -> RenderPipeline {
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("surfaces"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("surfaces"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some("surfaces_vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<GpuVertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
-            })],
-        },
-        primitive: wgpu::PrimitiveState {
-            front_face: if facing.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
-            cull_mode: (!facing.double_sided).then_some(wgpu::Face::Back),
-            ..Default::default()
-        },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: radiance.samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module: shader,
-            entry_point: Some("surfaces_fragment"),
-            compilation_options: Default::default(),
-            targets: &[Some(radiance.texture.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
     })
 }
 
@@ -241,7 +224,7 @@ mod tests {
 
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
-        let members = members!(Frame { clip_from_world, eye, lobes, polygon_count, gain });
+        let members = members!(Frame { clip_from_world, eye, lobes, ambient, gain });
         assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
     }
 }

@@ -4,8 +4,10 @@ use glam::Vec3;
 #[derive(Clone, Debug)]
 pub struct Light {
     pub name: String,
-    /// Linear Rec. 709, >= 0.
+    /// Linear Rec. 709, >= 0; of a textured emitter the mean over it.
     pub radiance: Vec3,
+    /// Mean of the emission texture over the emitter, linear; white where there is none.
+    pub texture_mean: Vec3,
     /// Emits from both faces; otherwise only to the side of its polygons' normals.
     pub two_sided: bool,
     /// At least one.
@@ -15,6 +17,13 @@ pub struct Light {
 }
 
 impl Light {
+    /// The radiance of the emitter's surface where its texture is white; black where no texel is.
+    pub fn emission(&self) -> Vec3 {
+        let divide = |radiance: f32, mean: f32| if mean > 0.0 { radiance / mean } else { 0.0 };
+        let [r, g, b] = [0, 1, 2].map(|channel| divide(self.radiance[channel], self.texture_mean[channel]));
+        Vec3::new(r, g, b)
+    }
+
     /// The mean of the outlines' vertices: where the light is said to be.
     pub fn position(&self) -> Vec3 {
         let vertices = self.polygons.iter().flat_map(|polygon| &polygon.contours).flatten();

@@ -42,7 +42,8 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
             let (radiance, two_sided) = (material.emission, material.double_sided);
-            scene.lights.push(Light { name, radiance, two_sided, polygons, instance: index });
+            let texture_mean = Vec3::ONE;
+            scene.lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
         }
     }
 }

@@ -102,7 +102,7 @@ impl Frame {
         };
         let view = surface_texture.texture.create_view(&Default::default());
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.draw_scene(&mut encoder, &view, state, self.place_in_pixels(picture, output.pixels_per_point), change);
+        self.draw_scene(&mut encoder, &view, state, self.place_in_pixels(picture, output.pixels_per_point), change)?;
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
         self.draw_egui(&mut encoder, &view, &jobs, output.pixels_per_point);
         self.gpu.queue.submit([encoder.finish()]);
@@ -121,9 +121,9 @@ impl Frame {
         state: &State,
         place: Rect,
         change: Change,
-    ) {
+    ) -> Result<(), ViewerError> {
         if change == Change::Scene {
-            self.renderer.update(&self.gpu, &state.scene, &state.settings);
+            self.renderer.update(&self.gpu, &state.scene, &state.settings)?;
         }
         let size = [place.width, place.height];
         let showing = Showing::Shown { exposure: state.settings.exposure, tone: state.tone };
@@ -133,6 +133,7 @@ impl Frame {
             self.place = place;
         }
         self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
+        Ok(())
     }
 
     fn draw_egui(

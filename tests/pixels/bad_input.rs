@@ -44,7 +44,7 @@ fn flags_out_of_range() {
         ("--exposure inf", "--exposure"),
         ("--exposure 1e9", "--exposure"),
         ("--tonemap filmic", "--tonemap"),
-        ("--lobes specular", "--lobes"),
+        ("--lobes shadow", "--lobes"),
         ("--lights-visible maybe", "--lights-visible"),
         ("--msaa 2", "--msaa"),
         ("--nonsense", "--nonsense"),

@@ -1,0 +1,189 @@
+// Materials: factors and textures to what a surface is made of at a point.
+
+// Which textures count: bit k is slot k's (scene::TextureSlot). The others are compiled away.
+override MATERIAL_TEXTURES: u32 = 0;
+const MATERIAL_BASE_COLOR = 0u;
+const MATERIAL_METALLIC_ROUGHNESS = 1u;
+const MATERIAL_NORMAL_MAP = 2u;
+const MATERIAL_OCCLUSION = 3u;
+const MATERIAL_EMISSION = 4u;
+const MATERIAL_SPECULAR = 5u;
+const MATERIAL_SPECULAR_COLOR = 6u;
+const MATERIAL_SHEEN_COLOR = 7u;
+const MATERIAL_SHEEN_ROUGHNESS = 8u;
+const MATERIAL_SHEEN_WEIGHT = 9u;
+override MATERIAL_NORMAL: bool = (MATERIAL_TEXTURES & 4u) != 0u;
+
+const MATERIAL_LAYERING_GLTF = 0u;
+const MATERIAL_LAYERING_OPENPBR = 1u;
+const MATERIAL_LAYERING_RECIPROCAL = 2u;
+
+struct MaterialFactors {
+    base_color: vec4f,
+    sheen_color: vec3f,
+    sheen_weight: f32,
+    // Of a dielectric; specular is its value at grazing angles and scales it.
+    f0: vec3f,
+    specular: f32,
+    metallic: f32,
+    roughness: f32,
+    sheen_roughness: f32,
+    // alpha = roughness^exponent
+    alpha_exponent: f32,
+    normal_scale: f32,
+    occlusion_strength: f32,
+    alpha_cutoff: f32,
+    layering: u32,
+    // What is left of the base where layering is none of the constants above.
+    manual: f32,
+    // Rows of the matrices that take texture coordinates (u, v, 1) to each slot's; w = 1 in the first: of the second set.
+    transforms: array<vec4f, 20>,
+}
+
+struct MaterialSurface {
+    base_color: vec3f,
+    opacity: f32,
+    metallic: f32,
+    roughness: f32,
+    f0: vec3f,
+    f90: f32,
+    // C_sheen, weighted.
+    sheen_color: vec3f,
+    sheen_weight: f32,
+    sheen_alpha: f32,
+    emission: vec3f,
+    // As interpolated and filtered: not of unit length.
+    normal: vec3f,
+    occlusion: f32,
+    alpha_cutoff: f32,
+    layering: u32,
+    manual: f32,
+}
+
+@group(0) @binding(4) var<storage, read> material_factors: array<MaterialFactors>;
+
+@group(1) @binding(0) var material_base_color: texture_2d<f32>;
+@group(1) @binding(1) var material_metallic_roughness: texture_2d<f32>;
+@group(1) @binding(2) var material_normal: texture_2d<f32>;
+@group(1) @binding(3) var material_occlusion: texture_2d<f32>;
+@group(1) @binding(4) var material_emission: texture_2d<f32>;
+@group(1) @binding(5) var material_specular: texture_2d<f32>;
+@group(1) @binding(6) var material_specular_color: texture_2d<f32>;
+@group(1) @binding(7) var material_sheen_color: texture_2d<f32>;
+@group(1) @binding(8) var material_sheen_roughness: texture_2d<f32>;
+@group(1) @binding(9) var material_sheen_weight: texture_2d<f32>;
+@group(1) @binding(10) var material_base_color_sampler: sampler;
+@group(1) @binding(11) var material_metallic_roughness_sampler: sampler;
+@group(1) @binding(12) var material_normal_sampler: sampler;
+@group(1) @binding(13) var material_occlusion_sampler: sampler;
+@group(1) @binding(14) var material_emission_sampler: sampler;
+@group(1) @binding(15) var material_specular_sampler: sampler;
+@group(1) @binding(16) var material_specular_color_sampler: sampler;
+@group(1) @binding(17) var material_sheen_color_sampler: sampler;
+@group(1) @binding(18) var material_sheen_roughness_sampler: sampler;
+@group(1) @binding(19) var material_sheen_weight_sampler: sampler;
+
+// Without textures and vertex colours.
+fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurface {
+    let factors = &material_factors[material];
+    return MaterialSurface(
+        (*factors).base_color.rgb, (*factors).base_color.a, (*factors).metallic, (*factors).roughness, (*factors).f0,
+        (*factors).specular, (*factors).sheen_color * (*factors).sheen_weight, (*factors).sheen_weight,
+        pow((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, (*factors).alpha_cutoff,
+        (*factors).layering, (*factors).manual,
+    );
+}
+
+fn material_has(slot: u32) -> bool {
+    return (MATERIAL_TEXTURES & (1u << slot)) != 0u;
+}
+
+fn material_uv(material: u32, slot: u32, tex_coords: vec4f) -> vec2f {
+    let u = material_factors[material].transforms[2u * slot];
+    let v = material_factors[material].transforms[2u * slot + 1u];
+    let at = vec3f(select(tex_coords.xy, tex_coords.zw, u.w != 0.0), 1.0);
+    return vec2f(dot(u.xyz, at), dot(v.xyz, at));
+}
+
+fn material_textured(
+    material: u32, emission: vec3f, normal: vec3f, tangent: vec4f, tex_coords: vec4f, color: vec4f,
+) -> MaterialSurface {
+    var surface = material_plain(material, emission, normal);
+    surface.base_color *= color.rgb;
+    surface.opacity *= color.a;
+    if material_has(MATERIAL_BASE_COLOR) {
+        let uv = material_uv(material, MATERIAL_BASE_COLOR, tex_coords);
+        let texel = textureSample(material_base_color, material_base_color_sampler, uv);
+        surface.base_color *= texel.rgb;
+        surface.opacity *= texel.a;
+    }
+    if material_has(MATERIAL_METALLIC_ROUGHNESS) {
+        let uv = material_uv(material, MATERIAL_METALLIC_ROUGHNESS, tex_coords);
+        let texel = textureSample(material_metallic_roughness, material_metallic_roughness_sampler, uv);
+        surface.roughness *= texel.g;
+        surface.metallic *= texel.b;
+    }
+    if MATERIAL_NORMAL {
+        let uv = material_uv(material, MATERIAL_NORMAL_MAP, tex_coords);
+        let texel = 2.0 * textureSample(material_normal, material_normal_sampler, uv).xyz - 1.0;
+        let mapped = texel * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
+        let across = tangent.w * cross(normal, tangent.xyz);
+        surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
+    }
+    if material_has(MATERIAL_OCCLUSION) {
+        let uv = material_uv(material, MATERIAL_OCCLUSION, tex_coords);
+        let texel = textureSample(material_occlusion, material_occlusion_sampler, uv);
+        surface.occlusion = 1.0 + material_factors[material].occlusion_strength * (texel.r - 1.0);
+    }
+    if material_has(MATERIAL_EMISSION) {
+        let uv = material_uv(material, MATERIAL_EMISSION, tex_coords);
+        surface.emission *= textureSample(material_emission, material_emission_sampler, uv).rgb;
+    }
+    if material_has(MATERIAL_SPECULAR) {
+        let uv = material_uv(material, MATERIAL_SPECULAR, tex_coords);
+        let strength = textureSample(material_specular, material_specular_sampler, uv).a;
+        surface.f0 *= strength;
+        surface.f90 *= strength;
+    }
+    if material_has(MATERIAL_SPECULAR_COLOR) {
+        let uv = material_uv(material, MATERIAL_SPECULAR_COLOR, tex_coords);
+        surface.f0 *= textureSample(material_specular_color, material_specular_color_sampler, uv).rgb;
+    }
+    if material_has(MATERIAL_SHEEN_COLOR) {
+        let uv = material_uv(material, MATERIAL_SHEEN_COLOR, tex_coords);
+        surface.sheen_color *= textureSample(material_sheen_color, material_sheen_color_sampler, uv).rgb;
+    }
+    if material_has(MATERIAL_SHEEN_ROUGHNESS) {
+        let uv = material_uv(material, MATERIAL_SHEEN_ROUGHNESS, tex_coords);
+        let texel = textureSample(material_sheen_roughness, material_sheen_roughness_sampler, uv);
+        let factors = &material_factors[material];
+        surface.sheen_alpha = pow((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
+    }
+    if material_has(MATERIAL_SHEEN_WEIGHT) {
+        let uv = material_uv(material, MATERIAL_SHEEN_WEIGHT, tex_coords);
+        let weight = textureSample(material_sheen_weight, material_sheen_weight_sampler, uv).r;
+        surface.sheen_color *= weight;
+        surface.sheen_weight *= weight;
+    }
+    // Tints may be greater than 1.
+    surface.f0 = min(surface.f0, vec3f(surface.f90));
+    return surface;
+}
+
+// What is left of the base under a sheen of this albedo, seen from the view's side.
+fn material_base_weight(surface: MaterialSurface, sheen_albedo: f32) -> f32 {
+    if !SURFACES_SHEEN {
+        return 1.0;
+    }
+    switch surface.layering {
+        case MATERIAL_LAYERING_GLTF, MATERIAL_LAYERING_RECIPROCAL: {
+            return sheen_base_weight(surface.sheen_color, sheen_albedo);
+        }
+        case MATERIAL_LAYERING_OPENPBR: {
+            return sheen_base_weight_openpbr(surface.sheen_weight, sheen_albedo);
+        }
+        default: {
+            return surface.manual;
+        }
+    }
+}

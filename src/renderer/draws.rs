@@ -1,0 +1,231 @@
+//! What is drawn, and in which order: instances sorted into batches, and those of a batch that a view sees.
+
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3, Vec4};
+
+use super::materials::Look;
+use super::textures::is_textured;
+use crate::scene::{Bounds, Instance, Light, Scene, Settings};
+
+/// `SurfacesInstance` of `surfaces.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct GpuInstance {
+    world_from_mesh: Mat4,
+    /// Columns of the matrix that takes normals to the world; up to a positive factor the inverse transpose.
+    normal_from_mesh: [Vec4; 3],
+    emission: Vec3,
+    material: u32,
+    handedness: f32,
+    padding: [u32; 3],
+}
+
+/// What a pipeline is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Variant {
+    pub look: Look,
+    /// Which of [`Attributes`] the mesh has; none where they are not needed.
+    pub attributes: Attributes,
+    /// The transform mirrors: front faces wind clockwise.
+    pub mirrored: bool,
+}
+
+/// What vertices have beside position and normal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Attributes {
+    /// Any of the others counts; what is missing is a constant.
+    pub any: bool,
+    pub tangents: bool,
+    pub tex_coords: [bool; 2],
+    pub colors: bool,
+}
+
+impl Variant {
+    fn new(scene: &Scene, settings: &Settings, instance: &Instance) -> Self {
+        let mesh = &scene.meshes[instance.mesh];
+        let look = Look::new(&scene.materials[mesh.material], settings);
+        let attributes = match look.textures != 0 || !mesh.colors.is_empty() {
+            false => Attributes::default(),
+            true => Attributes {
+                any: true,
+                tangents: !mesh.tangents.is_empty(),
+                tex_coords: mesh.tex_coords.each_ref().map(|set| !set.is_empty()),
+                colors: !mesh.colors.is_empty(),
+            },
+        };
+        Self { look, attributes, mirrored: instance.mirrors() }
+    }
+}
+
+/// Instances of one mesh, drawn alike: `instances[range]`.
+pub(super) struct Batch {
+    pub variant: Variant,
+    pub mesh: usize,
+    pub material: Option<usize>,
+    pub range: Range<u32>,
+}
+
+/// All instances sorted by how they are drawn.
+#[derive(Default)]
+pub(super) struct Draws {
+    pub instances: Vec<GpuInstance>,
+    /// Of each instance in the world.
+    bounds: Vec<Bounds>,
+    /// What is opaque comes first. Hidden lights are in none.
+    pub batches: Vec<Batch>,
+}
+
+impl Draws {
+    /// `mesh_bounds` are those of the scene's meshes.
+    pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
+        let mut lights = vec![None; scene.instances.len()];
+        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
+        let is_hidden = |index: usize| lights[index].is_some() && !settings.lights_visible;
+        let variants: Vec<Variant> =
+            scene.instances.iter().map(|instance| Variant::new(scene, settings, instance)).collect();
+        let key = |&index: &usize| {
+            (is_hidden(index), variants[index].look.blend, variants[index], scene.instances[index].mesh)
+        };
+        let mut order: Vec<usize> = (0..scene.instances.len()).collect();
+        // Stable: instances that are drawn alike stay in the file's order.
+        order.sort_by_key(key);
+        let mut draws = Self::default();
+        for index in order {
+            let instance = &scene.instances[index];
+            let at = draws.instances.len() as u32;
+            draws.instances.push(gpu_instance(scene, instance, lights[index]));
+            draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));
+            if is_hidden(index) {
+                continue;
+            }
+            let (variant, mesh) = (variants[index], instance.mesh);
+            match draws.batches.last_mut().filter(|batch| (batch.variant, batch.mesh) == (variant, mesh)) {
+                Some(batch) => batch.range.end = at + 1,
+                None => {
+                    let material = scene.meshes[mesh].material;
+                    let material = is_textured(&scene.materials[material]).then_some(material);
+                    draws.batches.push(Batch { variant, mesh, material, range: at..at + 1 });
+                }
+            }
+        }
+        draws
+    }
+
+    /// The runs of opaque instances that may be in the view, batch by batch.
+    pub fn opaque(&self, frustum: &Frustum) -> impl Iterator<Item = (&Batch, Range<u32>)> {
+        self.batches.iter().filter(|batch| !batch.variant.look.blend).flat_map(|batch| {
+            let mut runs: Vec<Range<u32>> = Vec::new();
+            for at in batch.range.clone().filter(|at| frustum.may_show(&self.bounds[*at as usize])) {
+                match runs.last_mut().filter(|run| run.end == at) {
+                    Some(run) => run.end = at + 1,
+                    None => runs.push(at..at + 1),
+                }
+            }
+            runs.into_iter().map(move |run| (batch, run))
+        })
+    }
+
+    /// The blended instances that may be in the view, the farthest first.
+    pub fn blended(&self, frustum: &Frustum) -> Vec<(&Batch, Range<u32>)> {
+        let mut found = Vec::new();
+        for batch in self.batches.iter().filter(|batch| batch.variant.look.blend) {
+            for at in batch.range.clone() {
+                let bounds = &self.bounds[at as usize];
+                if frustum.may_show(bounds) {
+                    found.push((frustum.depth(bounds.center()), batch, at..at + 1));
+                }
+            }
+        }
+        found.sort_by(|(left, ..), (right, ..)| right.total_cmp(left));
+        found.into_iter().map(|(_, batch, run)| (batch, run)).collect()
+    }
+}
+
+fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>) -> GpuInstance {
+    let material_index = scene.meshes[instance.mesh].material;
+    let material = &scene.materials[material_index];
+    GpuInstance {
+        world_from_mesh: instance.world_from_mesh,
+        normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
+        emission: light.map_or(material.emission, Light::emission),
+        material: material_index as u32,
+        handedness: if instance.mirrors() { -1.0 } else { 1.0 },
+        padding: [0; 3],
+    }
+}
+
+/// The space that a view shows.
+pub(super) struct Frustum {
+    /// A point p is within where all `planes . (p, 1)` are positive.
+    planes: [Vec4; 6],
+    /// Grows with the distance along the view.
+    depth: Vec4,
+}
+
+impl Frustum {
+    /// `eye` as in `View`.
+    pub fn new(clip_from_world: Mat4, eye: Vec4) -> Self {
+        let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row));
+        // The depth runs from w at the near plane to 0 at the far one. Without perspective w is 1, and depth tells.
+        let depth = if eye.w == 0.0 { -z } else { w };
+        Self { planes: [w - x, w + x, w - y, w + y, w - z, z], depth }
+    }
+
+    /// Whether any of the box may be within. Boxes near the edges may be without.
+    fn may_show(&self, bounds: &Bounds) -> bool {
+        let (center, half) = (bounds.center(), 0.5 * bounds.max - 0.5 * bounds.min);
+        self.planes.iter().all(|plane| {
+            let (normal, reach) = (plane.truncate(), plane.truncate().abs().dot(half));
+            // Room for rounding: whatever touches is drawn.
+            let size = normal.abs().dot(center.abs() + half) + plane.w.abs();
+            normal.dot(center) + plane.w + reach >= -1e-5 * size
+        })
+    }
+
+    fn depth(&self, point: Vec3) -> f32 {
+        self.depth.dot(point.extend(1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::super::surfaces::SURFACES_WGSL;
+    use super::super::view::{Rect, View};
+    use super::*;
+    use crate::scene::{Camera, Projection};
+
+    #[test]
+    fn instances_stand_as_the_shader_reads_them() {
+        let members = members!(GpuInstance { world_from_mesh, normal_from_mesh, emission, material, handedness });
+        assert_eq!(differences(SURFACES_WGSL, "SurfacesInstance", size_of::<GpuInstance>(), members), [""; 0]);
+    }
+
+    fn frustum(projection: Projection) -> Frustum {
+        let camera = Camera { name: String::new(), world_from_camera: Mat4::IDENTITY, projection };
+        let view = View::new(&camera, [200, 100], Rect::full([200, 100]));
+        Frustum::new(view.clip_from_world, view.eye)
+    }
+
+    fn cube(center: Vec3) -> Bounds {
+        Bounds { min: center - 0.5, max: center + 0.5 }
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_left_out() {
+        let perspective = Projection::Perspective { yfov: 1.57, near: 0.1, far: f32::INFINITY };
+        let orthographic = Projection::Orthographic { ymag: 5.0, near: 0.1, far: 50.0 };
+        for projection in [perspective, orthographic] {
+            let frustum = frustum(projection);
+            let seen = [Vec3::NEG_Z, Vec3::new(9.0, 0.0, -5.0), Vec3::new(-9.0, 4.9, -5.0)];
+            assert!(seen.iter().all(|center| frustum.may_show(&cube(*center))), "{projection:?}");
+            let unseen = [2.0 * Vec3::Z, Vec3::new(12.0, 0.0, -5.0), Vec3::new(0.0, -6.5, -5.0)];
+            assert!(!unseen.iter().any(|center| frustum.may_show(&cube(*center))), "{projection:?}");
+            assert!(frustum.depth(Vec3::NEG_Z) < frustum.depth(2.0 * Vec3::NEG_Z));
+        }
+        assert!(!frustum(orthographic).may_show(&cube(Vec3::new(0.0, 0.0, -52.0))));
+        assert!(frustum(perspective).may_show(&cube(Vec3::new(0.0, 0.0, -1e9))));
+    }
+}

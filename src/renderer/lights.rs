@@ -1,0 +1,146 @@
+//! Lights as the shaders walk through them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4};
+
+use crate::scene::{Light, Polygon, PunctualKind, PunctualLight};
+
+/// `LightsPolygon` of `lights.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct GpuPolygon {
+    radiance: Vec3,
+    two_sided: u32,
+    normal: Vec3,
+    first_vertex: u32,
+    center: Vec3,
+    radius: f32,
+    end_vertex: u32,
+    padding: [u32; 3],
+}
+
+/// `LightsPunctual` of `lights.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct GpuPunctual {
+    intensity: Vec3,
+    inverse_range_squared: f32,
+    position: Vec3,
+    has_place: f32,
+    direction: Vec3,
+    cone_scale: f32,
+    cone_offset: f32,
+    padding: [u32; 3],
+}
+
+/// `LightsCounts` of `lights.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct GpuCounts {
+    pub polygons: u32,
+    pub punctual: u32,
+}
+
+/// The lights' polygons, and the vertices of their outlines: each outline's first vertex is marked by w = 1 and comes
+/// again at its end. Black ones light nothing and are left out.
+pub(super) fn polygons(lights: &[Light]) -> (Vec<GpuPolygon>, Vec<Vec4>) {
+    let mut polygons = Vec::new();
+    let mut vertices: Vec<Vec4> = Vec::new();
+    for light in lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
+        for polygon in &light.polygons {
+            let first_vertex = vertices.len() as u32;
+            for contour in &polygon.contours {
+                let closed = contour.iter().chain(contour.first());
+                vertices.extend(closed.enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+            }
+            let (center, radius) = sphere(polygon);
+            polygons.push(GpuPolygon {
+                radiance: light.radiance,
+                two_sided: light.two_sided.into(),
+                normal: polygon.normal,
+                first_vertex,
+                center,
+                radius,
+                end_vertex: vertices.len() as u32,
+                padding: [0; 3],
+            });
+        }
+    }
+    (polygons, vertices)
+}
+
+/// A sphere around a polygon. Its centre lies in the plane through the first vertex, so that both tell the same side of the light.
+fn sphere(polygon: &Polygon) -> (Vec3, f32) {
+    let vertices = || polygon.contours.iter().flatten().map(|vertex| vertex.as_dvec3());
+    let (normal, first) = (polygon.normal.as_dvec3(), polygon.contours[0][0].as_dvec3());
+    let low = vertices().fold(first, |low, vertex| low.min(vertex));
+    let high = vertices().fold(first, |high, vertex| high.max(vertex));
+    let middle = 0.5 * (low + high);
+    let center = (middle - normal * normal.dot(middle - first)).as_vec3();
+    let radius = vertices().map(|vertex| vertex.distance(center.as_dvec3())).fold(0.0, f64::max);
+    // Room for the rounding of the shader's comparison, which is one of world coordinates.
+    let size = center.abs().max_element() + radius as f32;
+    (center, radius as f32 + 1e-6 * size)
+}
+
+pub(super) fn punctual(lights: &[PunctualLight]) -> Vec<GpuPunctual> {
+    lights.iter().map(one_punctual).collect()
+}
+
+fn one_punctual(light: &PunctualLight) -> GpuPunctual {
+    let (range, cone) = match light.kind {
+        PunctualKind::Point { range } => (range, None),
+        PunctualKind::Spot { range, inner, outer } => (range, Some((inner, outer))),
+        PunctualKind::Directional => (f32::INFINITY, None),
+    };
+    // KHR_lights_punctual's recommended falloff between the cones' cosines.
+    let scale = |(inner, outer): (f32, f32)| 1.0 / (inner.cos() - outer.cos()).max(1e-3);
+    let cone_scale = cone.map_or(0.0, scale);
+    GpuPunctual {
+        intensity: light.intensity,
+        inverse_range_squared: range.recip().powi(2),
+        position: light.position,
+        has_place: f32::from(u8::from(light.kind != PunctualKind::Directional)),
+        direction: light.direction,
+        cone_scale,
+        cone_offset: cone.map_or(1.0, |(_, outer)| -outer.cos() * cone_scale),
+        padding: [0; 3],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::super::surfaces::SURFACES_WGSL;
+    use super::*;
+
+    #[test]
+    fn structs_stand_as_the_shader_reads_them() {
+        let polygon = members!(GpuPolygon { radiance, two_sided, normal, first_vertex, center, radius, end_vertex });
+        let punctual = members!(GpuPunctual {
+            intensity,
+            inverse_range_squared,
+            position,
+            has_place,
+            direction,
+            cone_scale,
+            cone_offset
+        });
+        let counts = members!(GpuCounts { polygons, punctual });
+        for (name, size, members) in [
+            ("LightsPolygon", size_of::<GpuPolygon>(), &polygon[..]),
+            ("LightsPunctual", size_of::<GpuPunctual>(), punctual),
+            ("LightsCounts", size_of::<GpuCounts>(), counts),
+        ] {
+            assert_eq!(differences(SURFACES_WGSL, name, size, members), [""; 0]);
+        }
+    }
+
+    #[test]
+    fn a_sphere_holds_all_of_its_polygon() {
+        let contours = vec![vec![Vec3::new(5.0, 1.0, 0.0), Vec3::new(9.0, 1.0, 0.001), Vec3::new(5.0, 2.0, -0.001)]];
+        let (center, radius) = sphere(&Polygon { contours: contours.clone(), normal: Vec3::Z });
+        assert!(contours[0].iter().all(|vertex| vertex.distance(center) <= radius) && radius < 2.2);
+        assert!(Vec3::Z.dot(center - contours[0][0]).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,99 @@
+//! The pipelines of the surfaces' pass: one for each variant that a scene needs.
+
+use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, VertexBufferLayout, VertexFormat};
+
+use super::draws::{Attributes, Variant};
+use super::targets::{DEPTH_FORMAT, RadianceFormat};
+
+/// What all pipelines of the pass have in common.
+pub(super) struct Pipelines {
+    pub shader: ShaderModule,
+    pub layout: PipelineLayout,
+    pub radiance: RadianceFormat,
+}
+
+impl Pipelines {
+    /// The pipeline of a variant; `culled` are the faces that it leaves out.
+    pub fn make(&self, device: &Device, variant: &Variant, culled: Option<wgpu::Face>) -> RenderPipeline {
+        let Variant { look, attributes, mirrored } = *variant;
+        let number = |on: bool| f64::from(u8::from(on));
+        let constants = [
+            ("SURFACES_SHEEN", number(look.sheen)),
+            ("SURFACES_SPECULAR", number(look.specular)),
+            ("SURFACES_RECIPROCAL", number(look.reciprocal)),
+            ("SURFACES_UNLIT", number(look.unlit)),
+            ("SURFACES_MASK", number(look.mask)),
+            ("SURFACES_BLEND", number(look.blend)),
+            ("SURFACES_FILTERED", number(self.radiance.samples > 1)),
+            ("MATERIAL_TEXTURES", f64::from(look.textures)),
+        ];
+        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let [vertex, fragment] = match attributes.any {
+            true => ["surfaces_vertex_textured", "surfaces_fragment_textured"],
+            false => ["surfaces_vertex", "surfaces_fragment"],
+        };
+        let layouts = vertex_layouts(attributes);
+        let blend = look.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("surfaces"),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.shader,
+                entry_point: Some(vertex),
+                compilation_options: compilation_options.clone(),
+                buffers: &layouts[..if attributes.any { layouts.len() } else { 2 }],
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: culled,
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(!look.blend),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: self.radiance.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.shader,
+                entry_point: Some(fragment),
+                compilation_options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.radiance.texture,
+                    blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// A buffer an attribute, in the order of the shader's locations. One that the mesh lacks is read again for every vertex.
+fn vertex_layouts(attributes: Attributes) -> [Option<VertexBufferLayout<'static>>; 6] {
+    const fn attribute(format: VertexFormat, shader_location: u32) -> wgpu::VertexAttribute {
+        wgpu::VertexAttribute { format, offset: 0, shader_location }
+    }
+    const ATTRIBUTES: [wgpu::VertexAttribute; 6] = [
+        attribute(VertexFormat::Float32x3, 0),
+        attribute(VertexFormat::Float32x3, 1),
+        attribute(VertexFormat::Float32x4, 2),
+        attribute(VertexFormat::Float32x2, 3),
+        attribute(VertexFormat::Float32x2, 4),
+        attribute(VertexFormat::Unorm16x4, 5),
+    ];
+    // In place of colours stand floats: those that are there for the other attributes.
+    const WHITE: wgpu::VertexAttribute = attribute(VertexFormat::Float32x4, 5);
+    let Attributes { tangents, tex_coords: [first, second], colors, .. } = attributes;
+    let present = [true, true, tangents, first, second, colors];
+    std::array::from_fn(|location| {
+        let is_white = location == 5 && !colors;
+        let attributes =
+            if is_white { std::slice::from_ref(&WHITE) } else { std::slice::from_ref(&ATTRIBUTES[location]) };
+        let array_stride = if present[location] { attributes[0].format.size() } else { 0 };
+        Some(VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    })
+}

@@ -1,0 +1,266 @@
+//! Textures on the device: mipmaps, samplers, and a bind group for each material that has any.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView};
+
+use crate::scene::{Filter, Image, Material, Sampler, Scene, TextureSlot, Wrap};
+
+/// Most samples of a filter along the axis on which a texture is seen at a slant.
+const ANISOTROPY: u16 = 8;
+
+/// Group 1 of the surfaces' pass: a texture for each slot, then a sampler for each.
+pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
+    use wgpu::{BindingType, SamplerBindingType, TextureSampleType, TextureViewDimension};
+    let texture = BindingType::Texture {
+        sample_type: TextureSampleType::Float { filterable: true },
+        view_dimension: TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let types = [texture, BindingType::Sampler(SamplerBindingType::Filtering)];
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..2 * TextureSlot::COUNT)
+        .map(|index| wgpu::BindGroupLayoutEntry {
+            binding: index as u32,
+            visibility: ShaderStages::FRAGMENT,
+            ty: types[index / TextureSlot::COUNT],
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
+}
+
+/// The bind group of each material by its index, and last one of white textures for those that have none.
+pub(super) fn bind_groups(
+    (device, queue): (&Device, &Queue),
+    layout: &BindGroupLayout,
+    scene: &Scene,
+) -> Vec<BindGroup> {
+    let mut pool = Pool::new(device, queue, scene);
+    let plain = Material::matte("", glam::Vec3::ONE);
+    scene.materials.iter().chain([&plain]).map(|material| pool.bind_group(layout, material)).collect()
+}
+
+/// Whether a material needs a bind group of its own.
+pub(super) fn is_textured(material: &Material) -> bool {
+    material.textures.iter().any(Option::is_some)
+}
+
+/// Textures and samplers that were made, each once.
+struct Pool<'a> {
+    device: &'a Device,
+    queue: &'a Queue,
+    scene: &'a Scene,
+    white: TextureView,
+    /// By image, and whether it is read as colours.
+    textures: HashMap<(usize, bool), TextureView>,
+    samplers: HashMap<Sampler, wgpu::Sampler>,
+}
+
+impl<'a> Pool<'a> {
+    fn new(device: &'a Device, queue: &'a Queue, scene: &'a Scene) -> Self {
+        let image = Image { name: "white".to_owned(), width: 1, height: 1, texels: vec![[255; 4]] };
+        let white = upload(device, queue, &image, false);
+        Self { device, queue, scene, white, textures: HashMap::new(), samplers: HashMap::new() }
+    }
+
+    fn bind_group(&mut self, layout: &BindGroupLayout, material: &Material) -> BindGroup {
+        for slot in TextureSlot::ALL {
+            let texture = material.texture(slot).map(|texture| self.scene.textures[texture.texture]);
+            let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
+            self.samplers.entry(sampler).or_insert_with(|| make_sampler(self.device, &sampler));
+            if let Some(texture) = texture {
+                let (image, is_color) = (&self.scene.images[texture.image], slot.is_color());
+                let make = || upload(self.device, self.queue, image, is_color);
+                self.textures.entry((texture.image, is_color)).or_insert_with(make);
+            }
+        }
+        let entries: Vec<wgpu::BindGroupEntry> = TextureSlot::ALL
+            .into_iter()
+            .flat_map(|slot| {
+                let texture = material.texture(slot).map(|texture| self.scene.textures[texture.texture]);
+                let view = texture.map_or(&self.white, |texture| &self.textures[&(texture.image, slot.is_color())]);
+                let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
+                let binding = slot as u32;
+                [
+                    wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) },
+                    wgpu::BindGroupEntry {
+                        binding: binding + TextureSlot::COUNT as u32,
+                        resource: wgpu::BindingResource::Sampler(&self.samplers[&sampler]),
+                    },
+                ]
+            })
+            .collect();
+        let label = Some("material");
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label, layout, entries: &entries })
+    }
+}
+
+fn make_sampler(device: &Device, sampler: &Sampler) -> wgpu::Sampler {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+    };
+    let filter = |filter: Filter| match filter {
+        Filter::Nearest => wgpu::FilterMode::Nearest,
+        Filter::Linear => wgpu::FilterMode::Linear,
+    };
+    let mipmap_filter = match sampler.mipmaps {
+        Some(Filter::Linear) => wgpu::MipmapFilterMode::Linear,
+        _ => wgpu::MipmapFilterMode::Nearest,
+    };
+    let is_smooth = [Some(sampler.magnify), Some(sampler.minify), sampler.mipmaps] == [Some(Filter::Linear); 3];
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("material"),
+        address_mode_u: wrap(sampler.wrap[0]),
+        address_mode_v: wrap(sampler.wrap[1]),
+        mag_filter: filter(sampler.magnify),
+        min_filter: filter(sampler.minify),
+        mipmap_filter,
+        lod_max_clamp: if sampler.mipmaps.is_some() { 32.0 } else { 0.0 },
+        anisotropy_clamp: if is_smooth { ANISOTROPY } else { 1 },
+        ..Default::default()
+    })
+}
+
+/// The image with all its mipmaps; those larger than the device takes are left out.
+fn upload(device: &Device, queue: &Queue, image: &Image, is_color: bool) -> TextureView {
+    let limit = device.limits().max_texture_dimension_2d;
+    let mut base = Level { size: [image.width, image.height], texels: image.texels.clone() };
+    while base.size.iter().any(|side| *side > limit) {
+        base = base.next(is_color);
+    }
+    let count = u32::BITS - base.size[0].max(base.size[1]).leading_zeros();
+    let extent = |[width, height]: [u32; 2]| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(&image.name),
+        size: extent(base.size),
+        mip_level_count: count,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: if is_color { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm },
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let mut level = base;
+    for mip_level in 0..count {
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * level.size[0]), rows_per_image: None };
+        let target = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
+        queue.write_texture(target, level.texels.as_flattened(), layout, extent(level.size));
+        level = level.next(is_color);
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// A texture at one of its sizes.
+struct Level {
+    size: [u32; 2],
+    texels: Vec<[u8; 4]>,
+}
+
+impl Level {
+    /// Half the size, rounded down: each texel is the mean over the area that it covers, of colours in linear light.
+    fn next(&self, is_color: bool) -> Self {
+        let [width, height] = self.size.map(|side| (side / 2).max(1));
+        let linear: [f32; 256] =
+            std::array::from_fn(|byte| if is_color { linear_from_srgb(byte) } else { byte as f32 });
+        let columns: Vec<Span> = (0..width).map(|x| Span::new(x, width, self.size[0])).collect();
+        let row = |y: u32| {
+            let rows = Span::new(y, height, self.size[1]);
+            columns.iter().map(move |columns| (rows, *columns)).map(|(rows, columns)| self.mean(rows, columns, &linear))
+        };
+        let encode = |mean: [f32; 4]| {
+            let mut texel = mean.map(|channel| (channel + 0.5) as u8);
+            if is_color {
+                for (channel, mean) in texel.iter_mut().zip(&mean[..3]) {
+                    *channel = (255.0 * crate::picture::srgb_from_linear(*mean) + 0.5) as u8;
+                }
+            }
+            texel
+        };
+        let texels = (0..height).into_par_iter().flat_map_iter(|y| row(y).map(encode).collect::<Vec<_>>()).collect();
+        Self { size: [width, height], texels }
+    }
+
+    /// The mean over some rows and columns; opacity is never encoded.
+    fn mean(&self, rows: Span, columns: Span, linear: &[f32; 256]) -> [f32; 4] {
+        let mut mean = [0.0; 4];
+        for (y, row_weight) in rows.weights() {
+            for (x, column_weight) in columns.weights() {
+                let [r, g, b, a] = self.texels[y * self.size[0] as usize + x];
+                let weight = row_weight * column_weight;
+                let values = [linear[r as usize], linear[g as usize], linear[b as usize], f32::from(a)];
+                mean.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+            }
+        }
+        mean
+    }
+}
+
+/// What one of `count` texels covers of `of`: at most three.
+#[derive(Clone, Copy)]
+struct Span {
+    first: usize,
+    weights: [f32; 3],
+    count: usize,
+}
+
+impl Span {
+    fn new(index: u32, count: u32, of: u32) -> Self {
+        let scale = of as f32 / count as f32;
+        let (start, end) = (index as f32 * scale, (index + 1) as f32 * scale);
+        let first = start as usize;
+        let last = ((end - 1e-3) as usize).min(of as usize - 1);
+        let mut weights = [0.0; 3];
+        for (at, weight) in (first..=last).zip(&mut weights) {
+            *weight = (end.min((at + 1) as f32) - start.max(at as f32)) / scale;
+        }
+        Self { first, weights, count: last + 1 - first }
+    }
+
+    fn weights(self) -> impl Iterator<Item = (usize, f32)> {
+        (0..self.count.min(3)).map(move |k| (self.first + k, self.weights[k]))
+    }
+}
+
+/// Inverse of the sRGB transfer function, from bytes.
+fn linear_from_srgb(byte: usize) -> f32 {
+    let encoded = byte as f32 / 255.0;
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_are_means_over_the_area_in_linear_light() {
+        let checker = |size: [u32; 2]| {
+            let texel = |at: u32| [if (at % size[0] + at / size[0]) % 2 == 0 { 255 } else { 0 }; 4];
+            Level { size, texels: (0..size[0] * size[1]).map(texel).collect() }
+        };
+        // Half the light is 188 in sRGB, 128 as a number; opacity is one.
+        assert_eq!(checker([8, 4]).next(true).texels, vec![[188, 188, 188, 128]; 8]);
+        assert_eq!(checker([8, 4]).next(false).texels, vec![[128; 4]; 8]);
+        let odd = Level { size: [3, 1], texels: vec![[30; 4], [60; 4], [90; 4]] }.next(false);
+        assert_eq!((odd.size, odd.texels), ([1, 1], vec![[60; 4]]));
+        let five = Level { size: [5, 1], texels: vec![[0; 4], [0; 4], [100; 4], [0; 4], [0; 4]] }.next(false);
+        assert_eq!((five.size, five.texels), ([2, 1], vec![[20; 4]; 2]));
+    }
+
+    #[test]
+    fn the_mean_survives_every_halving() {
+        let texels: Vec<[u8; 4]> = (0..37 * 21).map(|at: u32| [(at * 97 % 256) as u8; 4]).collect();
+        let mean = |level: &Level| {
+            level.texels.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / level.texels.len() as f64
+        };
+        let mut level = Level { size: [37, 21], texels };
+        let whole = mean(&level);
+        while level.size != [1, 1] {
+            level = level.next(false);
+            assert!((mean(&level) - whole).abs() < 1.0, "{:?}", level.size);
+        }
+    }
+}
