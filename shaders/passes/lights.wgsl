@@ -1,16 +1,5 @@
 // What all lights send into each lobe of a surface.
 
-struct LightsPolygon {
-    radiance: vec3f,
-    two_sided: u32,
-    normal: vec3f,
-    first_vertex: u32,
-    // A sphere around all vertices.
-    center: vec3f,
-    radius: f32,
-    end_vertex: u32,
-}
-
 // Point, spot or directional: see scene::PunctualLight.
 struct LightsPunctual {
     intensity: vec3f,
@@ -31,18 +20,15 @@ struct LightsCounts {
 }
 
 @group(0) @binding(5) var<uniform> lights_counts: LightsCounts;
-@group(0) @binding(6) var<storage, read> lights_polygons: array<LightsPolygon>;
-// Outlines one after another; w = 1 marks the first vertex of each, which comes again at its end.
-@group(0) @binding(7) var<storage, read> lights_vertices: array<vec4f>;
 @group(0) @binding(8) var<storage, read> lights_punctual: array<LightsPunctual>;
 
 // A point to be lit.
 struct LightsReceiver {
     p_world: vec3f,
     normal: vec3f,
-    // Without the normal map.
-    n_surface: vec3f,
     local_from_world: mat3x3f,
+    // The normal without the normal map, in the local frame.
+    up: vec3f,
     sheen: mat3x3f,
     ggx: mat3x3f,
     sheen_color: vec3f,
@@ -57,17 +43,12 @@ struct LightsIncident {
     sheen: vec3f,
 }
 
-// The error of interpolated positions, as a share of the largest coordinate: a few roundings of f32. Points no further
-// from a light's plane are in it, so that a light does not shine on itself.
-const LIGHTS_POSITION_ERROR = 1e-6;
-const LIGHTS_IDENTITY = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-
 fn lights_incident(receiver: LightsReceiver, base_weight: f32) -> LightsIncident {
     var incident = LightsIncident(vec3f(0.0), vec3f(0.0), vec3f(0.0));
     var index = lights_next(receiver, 0u);
     while index < lights_counts.polygons {
-        let form_factors = lights_form_factors(receiver, lights_polygons[index]);
-        let radiance = lights_polygons[index].radiance;
+        let form_factors = polygons_form_factors(receiver, polygons_lights[index]);
+        let radiance = polygons_lights[index].radiance;
         incident = lights_add(receiver, incident, radiance, form_factors, base_weight);
         index = lights_next(receiver, index + 1u);
     }
@@ -82,52 +63,15 @@ fn lights_incident(receiver: LightsReceiver, base_weight: f32) -> LightsIncident
 fn lights_next(receiver: LightsReceiver, first: u32) -> u32 {
     var index = first;
     while index < lights_counts.polygons {
-        let to_center = lights_polygons[index].center - receiver.p_world;
-        let is_above = dot(receiver.normal, to_center) > -lights_polygons[index].radius;
-        let is_facing = dot(lights_polygons[index].normal, to_center) < 0.0 || lights_polygons[index].two_sided != 0u;
+        let to_center = polygons_lights[index].center - receiver.p_world;
+        let is_above = dot(receiver.normal, to_center) > -polygons_lights[index].radius;
+        let is_facing = dot(polygons_lights[index].normal, to_center) < 0.0 || polygons_lights[index].two_sided != 0u;
         if is_above && is_facing {
             break;
         }
         index++;
     }
     return index;
-}
-
-// Form factors of one light: diffuse, specular, sheen; w is the mean cosine of its directions.
-fn lights_form_factors(receiver: LightsReceiver, polygon: LightsPolygon) -> vec4f {
-    let to_vertex = lights_vertices[polygon.first_vertex].xyz - receiver.p_world;
-    let side = ltc_side(polygon.normal, to_vertex, polygon.two_sided != 0u);
-    let size = abs(receiver.p_world) + abs(to_vertex);
-    let error = LIGHTS_POSITION_ERROR * max(size.x, max(size.y, size.z));
-    if side == 0.0 || abs(dot(polygon.normal, to_vertex)) <= error {
-        return vec4f(0.0);
-    }
-    var sums = vec3f(0.0);
-    var across = vec2f(0.0);
-    var outline = ltc_begin(receiver.local_from_world * to_vertex);
-    for (var index = polygon.first_vertex + 1u; index < polygon.end_vertex; index++) {
-        let vertex = lights_vertices[index];
-        let p_local = receiver.local_from_world * (vertex.xyz - receiver.p_world);
-        if vertex.w != 0.0 {
-            outline = ltc_begin(p_local);
-        } else {
-            outline = ltc_next(outline, p_local);
-            sums.x += ltc_edge(outline, LIGHTS_IDENTITY);
-            if SURFACES_SPECULAR {
-                sums.y += ltc_edge(outline, receiver.ggx);
-            }
-            if SURFACES_SHEEN {
-                sums.z += ltc_edge(outline, receiver.sheen);
-            }
-            if SURFACES_RECIPROCAL {
-                let size = max(length(outline.normal), 1e-30);
-                across += ltc_angle(size * outline.sine, dot(outline.p, outline.q)) / size * outline.normal.xy;
-            }
-        }
-    }
-    let diffuse = ltc_form_factor(sums.x, side);
-    let cosine = lights_mean_cosine(vec3f(side / (2.0 * LTC_PI) * across, diffuse));
-    return vec4f(diffuse, ltc_form_factor(sums.y, side), ltc_form_factor(sums.z, side), cosine);
 }
 
 // What the sheen leaves of light from around this cosine; by the reciprocal rule the lesser of both sides' shares.
@@ -161,9 +105,9 @@ fn lights_add_punctual(
     let reach = square * light.inverse_range_squared;
     let cone = saturate(light.cone_scale * dot(light.direction, -wo) + light.cone_offset);
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
-    let is_above = f32(dot(receiver.n_surface, wo) > 0.0);
+    let is_above = f32(dot(receiver.up, local) > 0.0);
     let densities = vec4f(
-        ltc_density(LIGHTS_IDENTITY, local), ltc_density(receiver.ggx, local), ltc_density(receiver.sheen, local), 0.0,
+        ltc_density(POLYGONS_IDENTITY, local), ltc_density(receiver.ggx, local), ltc_density(receiver.sheen, local), 0.0,
     );
     let form_factors = is_above * densities + vec4f(vec3f(0.0), max(local.z, 0.0));
     return lights_add(receiver, incident, falloff * light.intensity, form_factors, base_weight);
@@ -171,15 +115,5 @@ fn lights_add_punctual(
 
 // The share of a uniform environment that reaches the base.
 fn lights_ambient(receiver: LightsReceiver, base_weight: f32) -> f32 {
-    return lights_base_weight(receiver, base_weight, lights_mean_cosine(vec3f(0.0, 0.0, 1.0)));
-}
-
-// The mean cosine of a light's directions, weighted by the cosine, from its vector irradiance under unit radiance over pi (whose z is
-// the form factor): that of a round light straight above of the same size, 2/3 for the whole hemisphere, times the vector's.
-fn lights_mean_cosine(vector: vec3f) -> f32 {
-    let size = min(length(vector), 1.0);
-    let rest = sqrt(1.0 - size);
-    // (2/3) (1 - rest^3) / (1 - rest^2), without its 0/0.
-    let shrink = 2.0 / 3.0 * (1.0 + rest + rest * rest) / (1.0 + rest);
-    return saturate(vector.z / max(size, 1e-20)) * shrink;
+    return lights_base_weight(receiver, base_weight, polygons_mean_cosine(vec3f(0.0, 0.0, 1.0)));
 }

@@ -1,5 +1,5 @@
 // The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all lights.
-// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, passes/material.wgsl and passes/lights.wgsl.
+// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, and of the passes material.wgsl, polygons.wgsl and lights.wgsl.
 
 struct SurfacesFrame {
     clip_from_world: mat4x4f,
@@ -137,8 +137,10 @@ fn surfaces_radiance(surface: MaterialSurface, p_world: vec3f, n_world: vec3f, f
     }
     let sheen = sheen_lobe(surfaces_sheen_table, surface.sheen_alpha, mu);
     let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);
+    let local_from_world = ltc_frame(normal, view);
+    let up = local_from_world * (side * surfaces_normalize(n_world));
     let lights = LightsReceiver(
-        p_world, normal, side * surfaces_normalize(n_world), ltc_frame(normal, view), sheen.m_inv, ggx.m_inv,
+        p_world, normal, local_from_world, up, sheen.m_inv, ggx.m_inv,
         surface.sheen_color, surface.sheen_alpha, surface.layering,
     );
     var specular = vec3f(0.0);

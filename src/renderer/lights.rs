@@ -5,7 +5,7 @@ use glam::{Vec3, Vec4};
 
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight};
 
-/// `LightsPolygon` of `lights.wgsl`.
+/// `PolygonsLight` of `polygons.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuPolygon {
@@ -42,7 +42,7 @@ pub(super) struct GpuCounts {
 }
 
 /// The lights' polygons, and the vertices of their outlines: each outline's first vertex is marked by w = 1 and comes
-/// again at its end. Black ones light nothing and are left out.
+/// again at its end, marked by -1. Black ones light nothing and are left out.
 pub(super) fn polygons(lights: &[Light]) -> (Vec<GpuPolygon>, Vec<Vec4>) {
     let mut polygons = Vec::new();
     let mut vertices: Vec<Vec4> = Vec::new();
@@ -50,8 +50,8 @@ pub(super) fn polygons(lights: &[Light]) -> (Vec<GpuPolygon>, Vec<Vec4>) {
         for polygon in &light.polygons {
             let first_vertex = vertices.len() as u32;
             for contour in &polygon.contours {
-                let closed = contour.iter().chain(contour.first());
-                vertices.extend(closed.enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+                vertices.extend(contour.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+                vertices.extend(contour.first().map(|first| first.extend(-1.0)));
             }
             let (center, radius) = sphere(polygon);
             polygons.push(GpuPolygon {
@@ -128,7 +128,7 @@ mod tests {
         });
         let counts = members!(GpuCounts { polygons, punctual });
         for (name, size, members) in [
-            ("LightsPolygon", size_of::<GpuPolygon>(), &polygon[..]),
+            ("PolygonsLight", size_of::<GpuPolygon>(), &polygon[..]),
             ("LightsPunctual", size_of::<GpuPunctual>(), punctual),
             ("LightsCounts", size_of::<GpuCounts>(), counts),
         ] {

@@ -23,6 +23,7 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/sheen.wgsl"),
     include_str!("../../shaders/ggx.wgsl"),
     include_str!("../../shaders/passes/material.wgsl"),
+    include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
     include_str!("../../shaders/passes/surfaces.wgsl"),
 );
