@@ -11,12 +11,16 @@
 //!   leaves R by a lot either way, and should.
 
 pub mod albedo;
+pub mod ggx;
+mod ggx_report;
 pub mod hemisphere;
 pub mod least_squares;
 pub mod lobe;
+pub mod nodes;
 mod report;
 pub mod slab;
 
+pub use ggx_report::GgxReport;
 pub use report::{DIM, Errors, Report};
 
 use crate::physics::slab::Slab;

@@ -6,6 +6,7 @@
 //! the nodes.
 
 use super::lobe::Lobes;
+use super::nodes;
 use super::report::{DIM, Errors};
 use crate::math::sine;
 use crate::physics::modes::Elevation;
@@ -79,11 +80,11 @@ pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
             }
         }
     }
-    let fit = fit_of_nodes(&at);
-    let nodes = values.map(|matrix| &fit * matrix * fit.transpose());
+    let fit = nodes::nearest(&at, SLAB_SIDE);
+    let fitted = values.map(|matrix| &fit * matrix * fit.transpose());
     // Sums in another order differ in their last bit: of equal pairs, one is taken.
     let pairs = (0..SLAB_SIDE).flat_map(|i| (0..SLAB_SIDE).map(move |j| (i.max(j), i.min(j))));
-    pairs.map(|pair| std::array::from_fn(|m| nodes[m][pair])).collect()
+    pairs.map(|pair| std::array::from_fn(|m| fitted[m][pair])).collect()
 }
 
 /// v0, v1, v2 as the solution has them.
@@ -95,16 +96,6 @@ fn stored(solution: &Transport, mu_i: f64, mu_o: f64) -> [f64; 3] {
     let across = one.s * other.s;
     let [rho_0, rho_1, rho_2] = modes.map(|mode| mode / single);
     [rho_0.max(0.0).ln_1p(), rho_1 / across, rho_2 / (across * across)]
-}
-
-/// From values at points `at` in \[0, 1\] to those at the nodes whose linear interpolation is nearest to them.
-fn fit_of_nodes(at: &[f64]) -> DMatrix<f64> {
-    let interpolation = DMatrix::from_fn(at.len(), SLAB_SIDE, |point, node| {
-        (1.0 - (at[point] * (SLAB_SIDE - 1) as f64 - node as f64).abs()).max(0.0)
-    });
-    let normal = interpolation.tr_mul(&interpolation);
-    let factor = normal.cholesky().expect("each node has points on either side: the hats are independent");
-    factor.solve(&interpolation.transpose())
 }
 
 fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {

@@ -51,8 +51,8 @@ pub struct Fit {
     /// Folder of the tables; made if it is not there
     #[arg(short, long, default_value = "tables", value_name = "DIR")]
     pub output: PathBuf,
-    /// Which table: sheen is sheen_ltc.csv and .dds, slab is sheen_slab.dds [default: all]
-    #[arg(long, value_enum, value_name = "sheen|slab")]
+    /// Which table: sheen is sheen_ltc.csv and .dds, slab is sheen_slab.dds, ggx is ggx_ltc.csv and .dds [default: all]
+    #[arg(long, value_enum, value_name = "sheen|slab|ggx")]
     pub only: Option<Table>,
     /// Nodes along alpha and along mu of the sheen's table, 2 to 128 [default: 32]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(resolutions()))]
@@ -72,6 +72,7 @@ fn resolutions() -> RangeInclusive<i64> {
 pub enum Table {
     Sheen,
     Slab,
+    Ggx,
 }
 
 #[derive(Args)]

@@ -8,7 +8,7 @@ use velour::picture::{Format, check_writable, write_atomically};
 use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Offscreen, RenderError};
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
-use velour::table::{LtcTable, SLAB_SIDE, SlabTable};
+use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
 
 use crate::render_args::{Render, Switch};
 use crate::{Failure, complain, say};
@@ -220,5 +220,8 @@ pub fn info() -> Result<(), Failure> {
         "table: sheen_slab {SLAB_SIDE}x{SLAB_SIDE}x{SLAB_SIDE}, checksum {:08x}",
         SlabTable::embedded().checksum()
     ));
+    let table = GgxTable::embedded();
+    let [roughnesses, places] = table.size();
+    say(format!("table: ggx_ltc {roughnesses}x{places}, checksum {:08x}", table.checksum()));
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use velour::fit;
 use velour::picture::write_atomically;
-use velour::table::{LtcTable, SlabTable, TableError};
+use velour::table::{GgxTable, LtcTable, SlabTable, TableError};
 
 use crate::args::{Fit, Table};
 use crate::output::{prepare, with_progress};
@@ -16,11 +16,12 @@ const ROUNDING: u32 = 1;
 
 /// What can fail comes before the work, for all tables. A check tells of every file, and fails once.
 pub fn fit(arguments: &Fit) -> Result<(), Failure> {
-    if arguments.only == Some(Table::Slab) && arguments.resolution.is_some() {
-        return Err(Failure::input("--resolution is the sheen's: leave it out with --only slab"));
+    if arguments.resolution.is_some() && arguments.only.is_some_and(|only| only != Table::Sheen) {
+        return Err(Failure::input("--resolution is the sheen's: leave it out, or with it --only"));
     }
     let sheen = Files::of(arguments, Table::Sheen, &["sheen_ltc.csv", "sheen_ltc.dds"], |path| LtcTable::load(path))?;
     let slab = Files::of(arguments, Table::Slab, &["sheen_slab.dds"], |path| SlabTable::load(path))?;
+    let ggx = Files::of(arguments, Table::Ggx, &["ggx_ltc.csv", "ggx_ltc.dds"], |path| GgxTable::load(path))?;
     let mut wrong = Vec::new();
     if let Some(files) = sheen {
         let resolution = arguments.resolution.map_or(fit::RESOLUTION, usize::from);
@@ -33,6 +34,12 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
         let (table, report) = with_progress("slab", |step| fit::slab::slab(step));
         wrong.extend(files.check(|found| Some(found.half_steps(&table))));
         files.write(arguments, &[&|| table.to_dds()], &report)?;
+    }
+    if let Some(files) = ggx {
+        let (table, report) = with_progress("ggx", |step| fit::ggx::ggx(fit::ggx::RESOLUTION, step));
+        wrong.extend(files.check(|found| found.half_steps(&table)));
+        let csv = || table.to_csv(&report.header()).into_bytes();
+        files.write(arguments, &[&csv, &|| table.to_dds()], &report)?;
     }
     if wrong.is_empty() { Ok(()) } else { Err(Failure::check(wrong.join("; "))) }
 }

@@ -3,6 +3,7 @@
 pub mod fourier;
 pub mod frame;
 pub mod quadrature;
+pub mod simplex;
 pub mod warp;
 
 /// The sine in \[0, 1\] of an angle in \[0, pi\] from its cosine in \[-1, 1\], without cancellation near either end.

@@ -4,6 +4,7 @@
 //! nothing; black below, nothing above. [`sggx`] is the medium, [`slab`] the layer with what is known of it in closed
 //! form; [`transport`] solves it without noise, on the kernel's [`modes`], and [`walk`] by random walk.
 
+pub mod microfacet;
 pub mod modes;
 pub mod sggx;
 pub mod slab;

@@ -4,7 +4,7 @@ use wgpu::TextureView;
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
-use crate::table::LtcTable;
+use crate::table::{GgxTable, LtcTable};
 
 /// The sheen's: x = alpha, y = mu.
 pub(super) fn sheen(gpu: &Gpu, table: &LtcTable) -> TextureView {
@@ -12,10 +12,10 @@ pub(super) fn sheen(gpu: &Gpu, table: &LtcTable) -> TextureView {
     texture(gpu, "sheen table", size, &table.texels())
 }
 
-/// The specular base's.
+/// The specular base's: x = roughness, y = sqrt(1 - mu), in two halves.
 pub(super) fn ggx(gpu: &Gpu) -> TextureView {
-    let table = LtcTable::embedded();
-    texture(gpu, "ggx table", table.size().map(|side| side as u32), &table.texels())
+    let table = GgxTable::embedded();
+    texture(gpu, "ggx table", table.texture_size().map(|side| side as u32), &table.texels())
 }
 
 fn texture(gpu: &Gpu, label: &str, [width, height]: [u32; 2], texels: &[[f32; 4]]) -> TextureView {

@@ -1,23 +1,35 @@
 //! Tables as text.
 
-use super::{LtcTable, MAX_SIDE, NODE_TOLERANCE, TableError, cell_defect, node};
+use super::grid::Grid;
+use super::{MAX_SIDE, NODE_TOLERANCE, TableError, node};
 use std::fmt::Write;
 
-const COLUMNS: [&str; 5] = ["alpha", "mu", "a", "b", "r"];
+/// What the lines of a table hold: the node's place on both axes, and its numbers.
+pub(super) struct Columns<const N: usize> {
+    pub axes: [&'static str; 2],
+    pub values: [&'static str; N],
+    /// What is wrong with a node's numbers, if anything.
+    pub defect: fn([f64; N]) -> Option<String>,
+}
 
-impl LtcTable {
-    /// Reads lines of `alpha,mu,a,b,r`, alpha-major.
+/// A line of numbers and where it stood (from 1).
+struct Row<const N: usize> {
+    line: usize,
+    place: [f64; 2],
+    values: [f64; N],
+}
+
+impl<const N: usize> Columns<N> {
+    /// Reads lines in order of the axes, the second varying fastest.
     ///
     /// The column names, empty lines and lines that begin with `#` may stand or be left out; spaces around numbers and
     /// CRLF line ends do not count.
-    pub fn from_csv(text: &str) -> Result<Self, TableError> {
-        let rows = rows(text)?;
-        let size = size(&rows)?;
+    pub fn read(&self, text: &str) -> Result<Grid<N>, TableError> {
+        let rows = self.rows(text)?;
+        let size = size(&rows, self.axes).map_err(|problem| self.broken(problem))?;
         for (index, row) in rows.iter().enumerate() {
-            let (i, j) = (index / size[1], index % size[1]);
-            let nodes = [node(i, size[0]), node(j, size[1])];
-            for (axis, name) in ["alpha", "mu"].into_iter().enumerate() {
-                let (is, should) = (row.values[axis], nodes[axis]);
+            let nodes = [node(index / size[1], size[0]), node(index % size[1], size[1])];
+            for ((is, should), name) in row.place.into_iter().zip(nodes).zip(self.axes) {
                 if (is - should).abs() > NODE_TOLERANCE {
                     let [n, m] = size;
                     let problem =
@@ -26,92 +38,86 @@ impl LtcTable {
                 }
             }
         }
-        let cells = rows.iter().map(|row| row.cell()).collect();
-        Ok(Self { size, cells })
+        Ok(Grid { size, cells: rows.into_iter().map(|row| row.values).collect() })
     }
 
-    /// The table as text: `header` as `#` comments, the column names, a line for each node.
+    /// `header` as `#` comments, the column names, a line for each node.
     ///
     /// Numbers are the shortest that read back as the same `f64`; the node positions have 7 digits.
-    pub fn to_csv(&self, header: &[String]) -> String {
+    pub fn write(&self, grid: &Grid<N>, header: &[String]) -> String {
         let mut text: String = header.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
-        text += &COLUMNS.join(",");
+        text += &self.names();
         text.push('\n');
-        let [n, m] = self.size;
-        for (index, [a, b, r]) in self.cells.iter().enumerate() {
+        let [n, m] = grid.size;
+        for (index, cell) in grid.cells.iter().enumerate() {
             let position = |k, n| (node(k, n) * 1e7).round() / 1e7;
-            let (alpha, mu) = (position(index / m, n), position(index % m, m));
-            writeln!(text, "{alpha},{mu},{a},{b},{r}").expect("writing to a string does not fail");
+            let (x, y) = (position(index / m, n), position(index % m, m));
+            let cell: String = cell.iter().map(|value| format!(",{value}")).collect();
+            writeln!(text, "{x},{y}{cell}").expect("writing to a string does not fail");
         }
         text
     }
-}
 
-/// A line of numbers and where it stood (from 1).
-struct Row {
-    line: usize,
-    /// In the order of [`COLUMNS`].
-    values: [f64; 5],
-}
-
-impl Row {
-    fn cell(&self) -> [f64; 3] {
-        [self.values[2], self.values[3], self.values[4]]
+    fn names(&self) -> String {
+        self.axes.into_iter().chain(self.values).collect::<Vec<_>>().join(",")
     }
-}
 
-fn rows(text: &str) -> Result<Vec<Row>, TableError> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut rows = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        let content = line.trim();
-        let names = || content.split(',').map(str::trim).eq(COLUMNS);
-        if content.is_empty() || content.starts_with('#') || (rows.is_empty() && names()) {
-            continue;
+    fn broken(&self, problem: String) -> TableError {
+        TableError::Lines { columns: self.names(), problem }
+    }
+
+    fn rows(&self, text: &str) -> Result<Vec<Row<N>>, TableError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut rows = Vec::new();
+        for (index, line) in text.lines().enumerate() {
+            let content = line.trim();
+            let names = || content.split(',').map(str::trim).eq(self.axes.into_iter().chain(self.values));
+            if content.is_empty() || content.starts_with('#') || (rows.is_empty() && names()) {
+                continue;
+            }
+            if rows.len() == MAX_SIDE * MAX_SIDE {
+                return Err(self.broken(format!("more than {MAX_SIDE} nodes a side")));
+            }
+            let line = index + 1;
+            let row = self.row(line, content).map_err(|problem| TableError::Line { line, problem })?;
+            rows.push(row);
         }
-        if rows.len() == MAX_SIDE * MAX_SIDE {
-            return Err(TableError::Lines { problem: format!("more than {MAX_SIDE} nodes a side") });
+        Ok(rows)
+    }
+
+    fn row(&self, line: usize, content: &str) -> Result<Row<N>, String> {
+        let columns = content.split(',').count();
+        if columns != N + 2 {
+            return Err(format!("{columns} columns instead of the {} of {}", N + 2, self.names()));
         }
-        let line = index + 1;
-        let row = row(line, content).map_err(|problem| TableError::Line { line, problem })?;
-        rows.push(row);
+        let mut row = Row { line, place: [0.0; 2], values: [0.0; N] };
+        let numbers = row.place.iter_mut().chain(&mut row.values);
+        for ((number, field), name) in numbers.zip(content.split(',')).zip(self.axes.into_iter().chain(self.values)) {
+            let field = field.trim();
+            *number = match field.parse() {
+                Ok(number) if f64::is_finite(number) => number,
+                _ => return Err(format!("{name} must be a finite number: {:?}", excerpt(field))),
+            };
+        }
+        (self.defect)(row.values).map_or(Ok(row), Err)
     }
-    Ok(rows)
 }
 
-fn row(line: usize, content: &str) -> Result<Row, String> {
-    let columns = content.split(',').count();
-    if columns != COLUMNS.len() {
-        return Err(format!("{columns} columns instead of the 5 of {}", COLUMNS.join(",")));
-    }
-    let mut values = [0.0; 5];
-    for ((value, field), name) in values.iter_mut().zip(content.split(',')).zip(COLUMNS) {
-        let field = field.trim();
-        *value = match field.parse() {
-            Ok(number) if f64::is_finite(number) => number,
-            _ => return Err(format!("{name} must be a finite number: {:?}", excerpt(field))),
-        };
-    }
-    let row = Row { line, values };
-    cell_defect(row.cell()).map_or(Ok(row), Err)
-}
-
-/// The nodes of alpha and mu that the rows are made of: the first alpha's rows count mu.
-fn size(rows: &[Row]) -> Result<[usize; 2], TableError> {
-    let broken = |problem| Err(TableError::Lines { problem });
+/// The nodes of both axes that the rows are made of: those at the first node of the first count the second.
+fn size<const N: usize>(rows: &[Row<N>], [first_name, second_name]: [&str; 2]) -> Result<[usize; 2], String> {
     let Some(first) = rows.first() else {
-        return broken("no line of numbers".to_owned());
+        return Err("no line of numbers".to_owned());
     };
-    let m = rows.iter().take_while(|row| (row.values[0] - first.values[0]).abs() <= NODE_TOLERANCE).count();
+    let m = rows.iter().take_while(|row| (row.place[0] - first.place[0]).abs() <= NODE_TOLERANCE).count();
     let n = rows.len().div_ceil(m);
     if m < 2 || n < 2 {
-        return broken(format!("{n} x {m} nodes of alpha and mu, where each needs 2 or more"));
+        return Err(format!("{n} x {m} nodes of {first_name} and {second_name}, where each needs 2 or more"));
     }
     if n > MAX_SIDE || m > MAX_SIDE {
-        return broken(format!("{n} x {m} nodes of alpha and mu, where {MAX_SIDE} a side is the most"));
+        return Err(format!("{n} x {m} nodes of {first_name} and {second_name}, where {MAX_SIDE} a side is the most"));
     }
     if n * m != rows.len() {
-        return broken(format!("{} rows do not fill {n} nodes of alpha by {m} of mu", rows.len()));
+        return Err(format!("{} rows do not fill {n} nodes of {first_name} by {m} of {second_name}", rows.len()));
     }
     Ok([n, m])
 }

@@ -1,72 +1,89 @@
 //! Tables as textures.
 
-use super::{LtcTable, MAX_SIDE, TableError, cell_defect};
+use super::grid::Grid;
+use super::{MAX_SIDE, TableError};
 use ddsfile::{AlphaMode, Caps2, D3D10ResourceDimension, Dds, DxgiFormat, FourCC, MiscFlag, NewDxgiParams};
 use half::f16;
 
-impl LtcTable {
-    /// Reads a 2D texture of RGBA16F or RGBA32F, x = alpha, y = mu; its A is not looked at.
-    pub fn from_dds(bytes: &[u8]) -> Result<Self, TableError> {
-        from_dds(bytes).map_err(|problem| TableError::Dds { problem })
+/// A 2D texture of RGBA16F or RGBA32F that was read.
+pub(super) struct Texture {
+    /// Nodes along x and y, of as many texels each as there are parts.
+    size: [usize; 2],
+    /// Row by row.
+    texels: Vec<[f64; 4]>,
+    header_bytes: usize,
+    texel_bytes: usize,
+}
+
+impl Texture {
+    /// Reads a texture whose height is that of `parts` tables, one above the other, of up to [`MAX_SIDE`] nodes a side.
+    pub fn read(bytes: &[u8], parts: usize) -> Result<Self, TableError> {
+        read(bytes, parts).map_err(|problem| TableError::Dds { problem })
     }
 
-    /// The table as a texture: RGBA16F, DX10 header, no mips, x = alpha, y = mu, A = 1.
-    pub fn to_dds(&self) -> Vec<u8> {
+    /// The numbers of each node from its texels in all parts, unless one is `wrong`.
+    pub fn grid<const PARTS: usize, const N: usize>(
+        &self,
+        numbers: fn([[f64; 4]; PARTS]) -> [f64; N],
+        wrong: fn([f64; N]) -> Option<String>,
+    ) -> Result<Grid<N>, TableError> {
         let [width, height] = self.size;
-        let mut dds = Dds::new_dxgi(NewDxgiParams {
-            height: height as u32,
-            width: width as u32,
-            depth: None,
-            format: DxgiFormat::R16G16B16A16_Float,
-            mipmap_levels: None,
-            array_layers: None,
-            caps2: None,
-            is_cubemap: false,
-            resource_dimension: D3D10ResourceDimension::Texture2D,
-            alpha_mode: AlphaMode::Custom,
-        })
-        .expect("RGBA16F is a format that the crate lays out");
-        dds.data.clear();
-        for y in 0..height {
-            for x in 0..width {
-                let [a, b, r] = self.cell(x, y);
-                // Straight from f64: by way of f32, rounding twice could miss the nearest half.
-                dds.data.extend([a, b, r, 1.0].into_iter().flat_map(|value| f16::from_f64(value).to_le_bytes()));
+        let mut cells = Vec::with_capacity(width * height);
+        for x in 0..width {
+            for y in 0..height {
+                let at = |part: usize| (part * height + y) * width + x;
+                let cell = numbers(std::array::from_fn(|part| self.texels[at(part)]));
+                if let Some(defect) = wrong(cell) {
+                    let byte = self.header_bytes + at(0) * self.texel_bytes;
+                    return Err(TableError::Dds { problem: format!("byte {byte}, texel ({x}, {y}): {defect}") });
+                }
+                cells.push(cell);
             }
         }
-        let mut bytes = Vec::new();
-        dds.write(&mut bytes).expect("writing to memory does not fail");
-        bytes
+        Ok(Grid { size: self.size, cells })
     }
 }
 
-fn from_dds(bytes: &[u8]) -> Result<LtcTable, String> {
+/// A texture of RGBA16F, DX10 header, no mips, from its texels row by row.
+pub(super) fn write([width, height]: [usize; 2], texels: impl Iterator<Item = [f64; 4]>) -> Vec<u8> {
+    let mut dds = Dds::new_dxgi(NewDxgiParams {
+        height: height as u32,
+        width: width as u32,
+        depth: None,
+        format: DxgiFormat::R16G16B16A16_Float,
+        mipmap_levels: None,
+        array_layers: None,
+        caps2: None,
+        is_cubemap: false,
+        resource_dimension: D3D10ResourceDimension::Texture2D,
+        alpha_mode: AlphaMode::Custom,
+    })
+    .expect("RGBA16F is a format that the crate lays out");
+    // Straight from f64: by way of f32, rounding twice could miss the nearest half.
+    dds.data = texels.flatten().flat_map(|value| f16::from_f64(value).to_le_bytes()).collect();
+    let mut bytes = Vec::new();
+    dds.write(&mut bytes).expect("writing to memory does not fail");
+    bytes
+}
+
+fn read(bytes: &[u8], parts: usize) -> Result<Texture, String> {
     // The crate reads the fixed-size headers and copies what follows them: memory stays within twice the input. Its
     // derived sizes multiply unchecked, so none of them is asked for.
     let dds = Dds::read(bytes).map_err(|error| format!("no .dds texture ({error})"))?;
     let texel_bytes = texel_bytes(&dds)?;
     let [width, height] = [dds.header.width, dds.header.height].map(|side| side as usize);
-    if ![width, height].iter().all(|side| (2..=MAX_SIDE).contains(side)) {
-        return Err(format!("{width} x {height} texels, where each side must be in [2, {MAX_SIDE}]"));
+    let size = [width, height / parts];
+    if height % parts != 0 || !size.iter().all(|side| (2..=MAX_SIDE).contains(side)) {
+        let stacked = if parts == 1 { String::new() } else { format!(", height over {parts}") };
+        return Err(format!("{width} x {height} texels, where each side{stacked} must be in [2, {MAX_SIDE}]"));
     }
     let expected = width * height * texel_bytes;
     if dds.data.len() != expected {
         let found = dds.data.len();
         return Err(format!("{found} bytes of texels, where {width} x {height} take {expected}"));
     }
-    let header_bytes = bytes.len() - expected;
-    let mut cells = Vec::with_capacity(width * height);
-    for x in 0..width {
-        for y in 0..height {
-            let at = (y * width + x) * texel_bytes;
-            let cell = cell(&dds.data[at..at + texel_bytes]);
-            if let Some(defect) = cell_defect(cell) {
-                return Err(format!("byte {}, texel ({x}, {y}): {defect}", header_bytes + at));
-            }
-            cells.push(cell);
-        }
-    }
-    Ok(LtcTable { size: [width, height], cells })
+    let texels = dds.data.chunks_exact(texel_bytes).map(texel).collect();
+    Ok(Texture { size, texels, header_bytes: bytes.len() - expected, texel_bytes })
 }
 
 /// Bytes of a texel, once the headers are seen to describe one plain 2D texture of a format that is read.
@@ -97,11 +114,11 @@ fn texel_bytes(dds: &Dds) -> Result<usize, String> {
     }
 }
 
-/// `[a, b, r]` of a texel of 4 halves or 4 floats.
-fn cell(texel: &[u8]) -> [f64; 3] {
-    let channel_bytes = texel.len() / 4;
+/// The numbers of a texel of 4 halves or 4 floats.
+fn texel(bytes: &[u8]) -> [f64; 4] {
+    let channel_bytes = bytes.len() / 4;
     std::array::from_fn(|channel| {
-        let bytes = &texel[channel * channel_bytes..][..channel_bytes];
+        let bytes = &bytes[channel * channel_bytes..][..channel_bytes];
         match *bytes {
             [low, high] => f16::from_le_bytes([low, high]).to_f64(),
             [b0, b1, b2, b3] => f32::from_le_bytes([b0, b1, b2, b3]).into(),

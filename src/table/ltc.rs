@@ -1,4 +1,4 @@
-//! What a cell of the table stands for: a clamped cosine, linearly transformed.
+//! What a cell of a table stands for: a clamped cosine, linearly transformed.
 
 use crate::math::warp::cosine_hemisphere;
 use glam::DVec3;
@@ -20,13 +20,9 @@ impl Ltc {
         self.density_and_slopes(wo).0
     }
 
-    /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, transformed by the matrix
-    /// (1/a, 0, -b/a), (0, 1/a, 0), (0, 0, 1) and normalised. `a` is above 0.
+    /// A direction of that density from two uniform numbers in \[0, 1). `a` is above 0.
     pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
-        let Self { a, b } = *self;
-        assert!(a > 0.0, "a singular matrix has no samples: a = {a}");
-        let cosine = cosine_hemisphere(uniforms);
-        DVec3::new(cosine.x - b * cosine.z, cosine.y, a * cosine.z).normalize()
+        SpecularLtc { a: self.a, b: self.b, c: self.a }.sample(uniforms)
     }
 
     /// The density and its derivatives by ln(a) and by b.
@@ -39,5 +35,34 @@ impl Ltc {
         let by_ln_a = 2.0 * a * (x * wo.x + y * wo.y) / square;
         let by_b = 2.0 * x * wo.z / square;
         (density, [density * (2.0 - 2.0 * by_ln_a), density * -2.0 * by_b])
+    }
+}
+
+/// The inverse matrix (a, 0, b), (0, c, 0), (0, 0, 1), by rows: of a lobe that is longer than wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpecularLtc {
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+}
+
+impl SpecularLtc {
+    /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
+    ///
+    /// a c z / (pi |v|^4) with v = M^-1 wo, as for [`Ltc::density`].
+    #[inline]
+    pub fn density(&self, wo: DVec3) -> f64 {
+        let (x, y, z) = (self.a * wo.x + self.b * wo.z, self.c * wo.y, wo.z);
+        let square = x * x + y * y + z * z;
+        self.a * self.c * z.max(0.0) / (PI * square * square)
+    }
+
+    /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, transformed by the matrix
+    /// (1/a, 0, -b/a), (0, 1/c, 0), (0, 0, 1) and normalised. `a` and `c` are above 0.
+    pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
+        let Self { a, b, c } = *self;
+        assert!(a > 0.0 && c > 0.0, "a singular matrix has no samples: a = {a}, c = {c}");
+        let cosine = cosine_hemisphere(uniforms);
+        DVec3::new(cosine.x - b * cosine.z, a / c * cosine.y, a * cosine.z).normalize()
     }
 }

@@ -11,17 +11,25 @@
 //!
 //! A .csv holds one line a node, alpha-major; a .dds holds one texel a node, x = alpha, y = mu.
 //!
+//! [`GgxTable`] holds the same and more for the specular base, over `(roughness, mu)`: see [`ggx`].
+//!
 //! [`SlabTable`], for path tracers, holds the slab's multiple scattering over `(alpha, mu_i, mu_o)`: see [`slab`]. Its .dds is a volume.
 
 mod csv;
 mod dds;
+pub mod ggx;
+mod grid;
 mod ltc;
 pub mod slab;
 mod slab_dds;
 
-pub use ltc::Ltc;
+pub use ggx::{GgxLobe, GgxTable};
+pub use ltc::{Ltc, SpecularLtc};
 pub use slab::{LEAST_SLAB_ALPHA, SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp, slab_alpha};
 
+use csv::Columns;
+use dds::Texture;
+use grid::Grid;
 use half::f16;
 use std::fs::File;
 use std::io::Read;
@@ -49,12 +57,12 @@ pub enum TableError {
     UnknownExtension,
     #[error("is longer than {MAX_FILE_BYTES} bytes; a table has at most {MAX_SIDE} nodes a side")]
     TooLong,
-    #[error("byte {at} is not UTF-8 text; a table's .csv holds lines of alpha,mu,a,b,r")]
+    #[error("byte {at} is not UTF-8 text; a table's .csv holds lines of numbers")]
     NotText { at: usize },
     #[error("line {line}: {problem}")]
     Line { line: usize, problem: String },
-    #[error("{problem}; a table holds n x m lines of alpha,mu,a,b,r, alpha-major, node k of n at k/(n-1)")]
-    Lines { problem: String },
+    #[error("{problem}; a table holds n x m lines of {columns}, in order of the first two, node k of n at k/(n-1)")]
+    Lines { columns: String, problem: String },
     #[error("{problem}; a table is one 2D texture of RGBA16F or RGBA32F with a DX10 header and no mips")]
     Dds { problem: String },
     #[error("{problem}; a slab's table is one volume of 32 x 32 x 32 texels of RGBA16F with a DX10 header and no mips")]
@@ -64,10 +72,8 @@ pub enum TableError {
 /// A grid of transformed cosines: `a`, `b`, `r` at the nodes of `(alpha, mu)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtcTable {
-    /// Nodes of alpha, nodes of mu; both >= 2.
-    size: [usize; 2],
-    /// `[a, b, r]` of each node, alpha-major: mu varies fastest.
-    cells: Vec<[f64; 3]>,
+    /// `[a, b, r]` over (alpha, mu).
+    grid: Grid<3>,
 }
 
 impl LtcTable {
@@ -75,103 +81,116 @@ impl LtcTable {
     ///
     /// Panics unless both sides are in `[2, MAX_SIDE]`, the count fits and every cell obeys the column ranges.
     pub fn new(size: [usize; 2], cells: Vec<[f64; 3]>) -> Self {
-        assert!(
-            size.iter().all(|side| (2..=MAX_SIDE).contains(side)),
-            "a table's sides are in [2, {MAX_SIDE}]: {size:?}"
-        );
-        assert_eq!(cells.len(), size[0] * size[1], "cells of a table of {size:?} nodes");
-        for (index, cell) in cells.iter().enumerate() {
-            let defect = cell_defect(*cell);
-            assert!(defect.is_none(), "cell {index}: {}", defect.unwrap_or_default());
-        }
-        Self { size, cells }
+        Self { grid: Grid::new(size, cells, cell_defect) }
     }
 
     /// The table that is shipped: fitted by `velour fit`, embedded in the program.
     pub fn embedded() -> Self {
-        match Self::from_csv(include_str!("../../tables/sheen_ltc.csv")) {
-            Ok(table) => table,
-            Err(error) => panic!("the embedded table is built in and its tests read it: {error}"),
-        }
+        embedded(Self::from_csv(include_str!("../../tables/sheen_ltc.csv")))
     }
 
     /// Reads a .csv or .dds file, told apart by its extension.
     ///
     /// A file past [`MAX_FILE_BYTES`] is refused before more than that is held.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, TableError> {
-        let path = path.as_ref();
-        load(path).map_err(|problem| TableError::In { path: path.to_owned(), problem: Box::new(problem) })
+        load(path.as_ref(), Self::from_csv, Self::from_dds)
+    }
+
+    /// Reads lines of `alpha,mu,a,b,r`, alpha-major.
+    ///
+    /// The column names, empty lines and lines that begin with `#` may stand or be left out; spaces around numbers and
+    /// CRLF line ends do not count.
+    pub fn from_csv(text: &str) -> Result<Self, TableError> {
+        Ok(Self { grid: COLUMNS.read(text)? })
+    }
+
+    /// The table as text: `header` as `#` comments, the column names, a line for each node.
+    ///
+    /// Numbers are the shortest that read back as the same `f64`; the node positions have 7 digits.
+    pub fn to_csv(&self, header: &[String]) -> String {
+        COLUMNS.write(&self.grid, header)
+    }
+
+    /// Reads a 2D texture of RGBA16F or RGBA32F, x = alpha, y = mu; its A is not looked at.
+    pub fn from_dds(bytes: &[u8]) -> Result<Self, TableError> {
+        let texture = Texture::read(bytes, 1)?;
+        Ok(Self { grid: texture.grid(|[[a, b, r, _]]| [a, b, r], cell_defect)? })
+    }
+
+    /// The table as a texture: RGBA16F, DX10 header, no mips, x = alpha, y = mu, A = 1.
+    pub fn to_dds(&self) -> Vec<u8> {
+        dds::write(self.size(), self.grid.by_rows().map(|[a, b, r]| [a, b, r, 1.0]))
     }
 
     /// Nodes of alpha, nodes of mu.
     pub fn size(&self) -> [usize; 2] {
-        self.size
+        self.grid.size
     }
 
     /// `[a, b, r]` of every node, alpha-major.
     pub fn cells(&self) -> &[[f64; 3]] {
-        &self.cells
+        &self.grid.cells
     }
 
     /// `[a, b, r]` of node `(i, j)` of (alpha, mu).
     pub fn cell(&self, i: usize, j: usize) -> [f64; 3] {
-        assert!(i < self.size[0] && j < self.size[1], "node ({i}, {j}) of a table of {:?}", self.size);
-        self.cells[i * self.size[1] + j]
+        self.grid.cell(i, j)
     }
 
     /// The largest difference to `other` over all numbers, in steps from one half-float to the next; none where the sizes differ.
     ///
     /// One step is what rounding differently on another machine may leave.
     pub fn half_steps(&self, other: &Self) -> Option<u32> {
-        let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
-        let steps = |(one, other): (&f64, &f64)| half_steps(f16::from_f64(*one), f16::from_f64(*other));
-        (self.size == other.size).then(|| pairs.map(steps).max().unwrap_or_default())
+        self.grid.half_steps(&other.grid, 0.0)
     }
 
     /// `[a, b, r]` at `alpha` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
     pub fn lookup(&self, alpha: f64, mu: f64) -> [f64; 3] {
         assert!(!alpha.is_nan() && !mu.is_nan(), "lookup at alpha {alpha}, mu {mu}");
-        let (i, s) = cell(alpha.clamp(0.0, 1.0), self.size[0]);
-        let (j, t) = cell(mu.clamp(0.0, 1.0), self.size[1]);
-        let corners = [self.cell(i, j), self.cell(i, j + 1), self.cell(i + 1, j), self.cell(i + 1, j + 1)];
-        std::array::from_fn(|k| {
-            let [c00, c01, c10, c11] = corners.map(|corner| corner[k]);
-            (1.0 - s) * ((1.0 - t) * c00 + t * c01) + s * ((1.0 - t) * c10 + t * c11)
-        })
+        self.grid.lookup(alpha, mu)
     }
 
     /// What a texture takes: `[a, b, r, 1]` row by row, x = alpha, y = mu.
     pub fn texels(&self) -> Vec<[f32; 4]> {
-        let [width, height] = self.size;
-        let texel = |x, y| {
-            let [a, b, r] = self.cell(x, y).map(|value| value as f32);
-            [a, b, r, 1.0]
-        };
-        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect()
+        self.grid.by_rows().map(|[a, b, r]| [a as f32, b as f32, r as f32, 1.0]).collect()
     }
 
     /// CRC-32 of the texels as little-endian floats: the same for a table whatever file format it came in, as long as
     /// the numbers are the same.
     pub fn checksum(&self) -> u32 {
-        let mut hasher = crc32fast::Hasher::new();
-        for value in self.texels().as_flattened() {
-            hasher.update(&value.to_le_bytes());
-        }
-        hasher.finalize()
+        grid::checksum(&self.texels())
     }
 }
 
-fn load(path: &Path) -> Result<LtcTable, TableError> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase();
-    if extension != "csv" && extension != "dds" {
-        return Err(TableError::UnknownExtension);
+const COLUMNS: Columns<3> = Columns { axes: ["alpha", "mu"], values: ["a", "b", "r"], defect: cell_defect };
+
+/// A table that is built in.
+fn embedded<T>(table: Result<T, TableError>) -> T {
+    match table {
+        Ok(table) => table,
+        Err(error) => panic!("the embedded table is built in and its tests read it: {error}"),
     }
-    let bytes = read_file(path)?;
-    if extension == "dds" {
-        return LtcTable::from_dds(&bytes);
-    }
-    let text = std::str::from_utf8(&bytes).map_err(|error| TableError::NotText { at: error.valid_up_to() })?;
-    LtcTable::from_csv(text)
+}
+
+/// Reads a .csv or .dds file, told apart by its extension; errors name the file.
+fn load<T>(
+    path: &Path,
+    from_csv: fn(&str) -> Result<T, TableError>,
+    from_dds: fn(&[u8]) -> Result<T, TableError>,
+) -> Result<T, TableError> {
+    let read = || {
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let extension = extension.to_ascii_lowercase();
+        if extension != "csv" && extension != "dds" {
+            return Err(TableError::UnknownExtension);
+        }
+        let bytes = read_file(path)?;
+        if extension == "dds" {
+            return from_dds(&bytes);
+        }
+        from_csv(std::str::from_utf8(&bytes).map_err(|error| TableError::NotText { at: error.valid_up_to() })?)
+    };
+    read().map_err(|problem| TableError::In { path: path.to_owned(), problem: Box::new(problem) })
 }
 
 /// What an ordinary file of bounded length holds.

@@ -87,10 +87,7 @@ impl SlabTable {
 
     /// The table that is shipped: made by `velour fit`, embedded in the program.
     pub fn embedded() -> Self {
-        match Self::from_dds(include_bytes!("../../tables/sheen_slab.dds")) {
-            Ok(table) => table,
-            Err(error) => panic!("the embedded table is built in and its tests read it: {error}"),
-        }
+        super::embedded(Self::from_dds(include_bytes!("../../tables/sheen_slab.dds")))
     }
 
     /// Reads a .dds file.

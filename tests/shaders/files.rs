@@ -4,7 +4,7 @@ use std::path::Path;
 use wgpu::naga::{self, TypeInner};
 
 /// Each file with what its header's example takes for granted.
-const FILES: [(&str, &str); 2] = [
+const FILES: [(&str, &str); 3] = [
     (
         "ltc.wgsl",
         "fn example(frame: mat3x3<f32>, last: vec3<f32>, vertex: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
@@ -14,6 +14,10 @@ const FILES: [(&str, &str); 2] = [
     (
         "sheen.wgsl",
         "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    ),
+    (
+        "ggx.wgsl",
+        "fn example(table: texture_2d<f32>, roughness: f32, mu: f32, light: vec3<f32>, f0: vec3<f32>, f90: vec3<f32>, form_factor: f32) {",
     ),
 ];
 
