@@ -44,6 +44,11 @@ impl Offscreen {
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
 
+    /// Takes over changed materials, lights, places and settings of the same scene; its meshes and textures are as they were.
+    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
+        self.renderer.update(gpu, scene, settings)
+    }
+
     /// The picture as shown; made by `for_display`.
     pub async fn display(
         &mut self,

@@ -1,9 +1,11 @@
 //! Pictures, made as users make them: by the whole pipeline on a device, and by the binary.
 
 mod bad_input;
+mod base;
 mod command;
 mod compare;
 mod golden;
+mod lights;
 mod radiance;
 mod run;
 mod shown;

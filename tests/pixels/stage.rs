@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3};
 use serde_json::{Value, json};
-use velour::scene::{Camera, Instance, Light, Material, Mesh, Polygon, Projection, Scene, Sheen};
+use velour::scene::{Camera, Instance, Light, Material, Mesh, Polygon, Projection, PunctualLight, Scene, Sheen};
 
 /// Things before a camera. What glows is a light.
 #[derive(Clone)]
@@ -10,6 +10,8 @@ pub struct Stage {
     pub things: Vec<Thing>,
     pub world_from_camera: Mat4,
     pub projection: Projection,
+    /// Lights without extent, which files do not get.
+    pub punctual: Vec<PunctualLight>,
 }
 
 /// A mesh, its place and its look.
@@ -89,7 +91,7 @@ pub fn looking(eye: [f32; 3], target: [f32; 3]) -> Mat4 {
 impl Stage {
     pub fn new(things: Vec<Thing>, world_from_camera: Mat4) -> Self {
         let projection = Projection::Perspective { yfov: 0.8, near: 0.1, far: 100.0 };
-        Self { things, world_from_camera, projection }
+        Self { things, world_from_camera, projection, punctual: Vec::new() }
     }
 
     /// The scene as the library's own types: nothing of the reading of files is between it and the picture.
@@ -119,6 +121,7 @@ impl Stage {
             materials: self.things.iter().map(|thing| thing.material.clone()).collect(),
             lights: things.filter(|(_, thing)| thing.glows()).map(light).collect(),
             cameras: vec![camera],
+            punctual_lights: self.punctual.clone(),
             ..Scene::default()
         }
     }
@@ -150,7 +153,13 @@ impl Stage {
         };
         let root = json!({
             "asset": { "version": "2.0" },
-            "extensionsUsed": ["KHR_materials_sheen", "KHR_materials_emissive_strength"],
+            "extensionsUsed": [
+                "KHR_materials_emissive_strength",
+                "KHR_materials_fuzz",
+                "KHR_materials_ior",
+                "KHR_materials_sheen",
+                "KHR_materials_specular",
+            ],
             "scene": 0,
             "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
             "nodes": nodes,
@@ -188,14 +197,35 @@ fn material(material: &Material) -> Value {
     let [r, g, b] = material.base_color.to_array();
     let strength = material.emission.max_element().max(1.0);
     let mut json = json!({
-        "pbrMetallicRoughness": { "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0 },
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [r, g, b, 1.0],
+            "metallicFactor": material.metallic,
+            "roughnessFactor": material.roughness,
+        },
         "emissiveFactor": (material.emission / strength).to_array(),
         "doubleSided": material.double_sided,
-        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
+        "extensions": {
+            "KHR_materials_emissive_strength": { "emissiveStrength": strength },
+            "KHR_materials_ior": { "ior": material.ior },
+            "KHR_materials_specular": {
+                "specularFactor": material.specular,
+                "specularColorFactor": material.specular_color.to_array(),
+            },
+        },
     });
-    if let Some(sheen) = material.sheen {
-        json["extensions"]["KHR_materials_sheen"] =
-            json!({ "sheenColorFactor": sheen.color.to_array(), "sheenRoughnessFactor": sheen.roughness });
+    match material.sheen {
+        Some(Sheen { color, roughness, weight: 1.0 }) => {
+            json["extensions"]["KHR_materials_sheen"] =
+                json!({ "sheenColorFactor": color.to_array(), "sheenRoughnessFactor": roughness });
+        }
+        Some(Sheen { color, roughness, weight }) => {
+            json["extensions"]["KHR_materials_fuzz"] = json!({
+                "fuzzFactor": weight,
+                "fuzzColorFactor": color.to_array(),
+                "fuzzRoughnessFactor": roughness,
+            });
+        }
+        None => {}
     }
     json
 }

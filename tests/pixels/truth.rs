@@ -1,11 +1,16 @@
 //! The radiance of a stage at a point of its picture, in `f64` and by hand: a ray, the triangles, the design's sum.
 
+use std::sync::LazyLock;
+
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use velour::reference::polygon::form_factor;
-use velour::scene::{Projection, Settings};
-use velour::table::LtcTable;
+use velour::scene::{Layering, Lobes, Material, Projection, PunctualKind, PunctualLight, Settings};
+use velour::table::{GgxTable, LtcTable};
 
 use super::stage::{Stage, Thing};
+
+/// The specular base's numbers.
+static GGX: LazyLock<GgxTable> = LazyLock::new(GgxTable::embedded);
 
 /// What is seen at a point of the picture.
 pub struct Hit {
@@ -30,8 +35,7 @@ pub struct Truth<'a> {
     table: &'a LtcTable,
     settings: &'a Settings,
     size: [u32; 2],
-    /// Radiance, outlines in the world, two-sided.
-    lights: Vec<(DVec3, Vec<Vec<DVec3>>, bool)>,
+    lights: Vec<Lit>,
 }
 
 impl<'a> Truth<'a> {
@@ -44,7 +48,13 @@ impl<'a> Truth<'a> {
             if world_from_mesh.determinant() < 0.0 {
                 contours.iter_mut().for_each(|contour| contour.reverse());
             }
-            (thing.material.emission.as_dvec3(), contours, thing.material.double_sided)
+            let corners = |triangle: &[u32; 3]| triangle.map(|corner| place(&thing.positions[corner as usize]));
+            Lit {
+                radiance: thing.material.emission.as_dvec3(),
+                contours,
+                triangles: thing.triangles.iter().map(corners).collect(),
+                two_sided: thing.material.double_sided,
+            }
         };
         let lights = stage.things.iter().filter(|thing| thing.glows()).map(outline).collect();
         Self { stage, table, settings, size, lights }
@@ -84,27 +94,152 @@ impl<'a> Truth<'a> {
 
     /// The design's sum: lobes weighted, over all lights.
     fn radiance(&self, thing: &Thing, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
-        let sheen = self.settings.sheen_of(&thing.material);
-        let color = sheen.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3());
-        let alpha = sheen.map_or(0.0, |look| f64::from(look.sheen.roughness));
-        let [a, b, r] = self.table.lookup(alpha, normal.dot(view).max(0.0));
-        let m_inv = DMat3::from_cols(DVec3::new(a, 0.0, 0.0), DVec3::new(0.0, a, 0.0), DVec3::new(b, 0.0, 1.0));
-        let base = thing.material.base_color.as_dvec3() * (1.0 - color.max_element() * r);
+        let look = Look::new(self, &thing.material, normal.dot(view).max(0.0));
         let lobes = self.settings.lobes;
         let local_from_world = frame(normal, view).transpose();
         let mut sum = if lobes.emission { thing.material.emission.as_dvec3() } else { DVec3::ZERO };
-        for (radiance, contours, two_sided) in &self.lights {
+        for light in &self.lights {
             let local = |corner: &DVec3| local_from_world * (*corner - p_world);
             let contours: Vec<Vec<DVec3>> =
-                contours.iter().map(|contour| contour.iter().map(local).collect()).collect();
-            if lobes.sheen {
-                sum += *radiance * color * r * form_factor(&contours, m_inv, *two_sided);
-            }
-            if lobes.diffuse {
-                sum += *radiance * base * form_factor(&contours, DMat3::IDENTITY, *two_sided);
-            }
+                light.contours.iter().map(|contour| contour.iter().map(local).collect()).collect();
+            let form_factor = |m_inv| form_factor(&contours, m_inv, light.two_sided);
+            let base = match look.light_side {
+                None => look.base_weight,
+                Some(_) => light.mean_cosine_weighted(p_world, normal, |mu| look.weight_from(mu)),
+            };
+            sum += light.radiance * look.reflected(lobes, base, form_factor);
+        }
+        for light in &self.stage.punctual {
+            let (wo, irradiance) = arriving(light, p_world);
+            let wo = local_from_world * wo;
+            let density = |m_inv: DMat3| {
+                let transformed = m_inv * wo;
+                wo.z.max(0.0) * m_inv.determinant() / (std::f64::consts::PI * transformed.length().powi(4))
+            };
+            sum += irradiance * look.reflected(lobes, look.weight_from(wo.z.max(0.0)), density);
+        }
+        // A uniform environment: each lobe's albedo, and the mean over the hemisphere of what the sheen leaves of the base.
+        let mean = |k: i32| 2.0 * (f64::from(k) + 0.5) / 256.0 / 256.0 * look.weight_from((f64::from(k) + 0.5) / 256.0);
+        let base = if look.light_side.is_some() { (0..256).map(mean).sum() } else { look.base_weight };
+        sum + self.settings.ambient.as_dvec3() * look.reflected(lobes, base, |_| 1.0)
+    }
+}
+
+/// A surface as it is seen from one side.
+struct Look<'a> {
+    table: &'a LtcTable,
+    sheen: DVec3,
+    sheen_m_inv: DMat3,
+    diffuse: DVec3,
+    specular: DVec3,
+    specular_m_inv: DMat3,
+    /// What the sheen leaves of the base: seen from the view, and how that depends on the light's cosine (alpha, strongest colour).
+    base_weight: f64,
+    light_side: Option<(f64, f64)>,
+}
+
+impl<'a> Look<'a> {
+    fn new(truth: &Truth<'a>, material: &Material, mu: f64) -> Self {
+        let look = truth.settings.sheen_of(material);
+        let color = look.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3() * f64::from(look.sheen.weight));
+        let alpha =
+            look.map_or(0.0, |look| f64::from(look.sheen.roughness).powf(f64::from(look.roughness_map.exponent())));
+        let [a, b, r] = truth.table.lookup(alpha, mu);
+        let ggx = GGX.lookup(material.roughness.into(), mu);
+        let rows = |a: f64, b: f64, c: f64| DMat3::from_cols(DVec3::X * a, DVec3::Y * c, DVec3::new(b, 0.0, 1.0));
+        // Fresnel's reflectance, and what light that facets reflect more than once adds.
+        let albedo = |f0: DVec3, f90: f64| {
+            let once = f0 * (ggx.albedo - ggx.fresnel) + f90 * ggx.fresnel;
+            once * (1.0 + f0 * (1.0 / ggx.albedo - 1.0))
+        };
+        let (metallic, specular) = (f64::from(material.metallic), f64::from(material.specular));
+        let base_color = material.base_color.as_dvec3();
+        let normal = ((f64::from(material.ior) - 1.0) / (f64::from(material.ior) + 1.0)).powi(2);
+        let f0 = (normal * material.specular_color.as_dvec3()).min(DVec3::ONE) * specular;
+        let layering = truth.settings.layering_of(material);
+        let base_weight = match layering {
+            Layering::Gltf | Layering::Reciprocal => 1.0 - color.max_element() * r,
+            Layering::OpenPbr => 1.0 - look.map_or(0.0, |look| f64::from(look.sheen.weight)) * r,
+            Layering::Manual(share) if look.is_some() => share.into(),
+            Layering::Manual(_) | Layering::None => 1.0,
+        };
+        Self {
+            table: truth.table,
+            sheen: color * r,
+            sheen_m_inv: rows(a, b, a),
+            diffuse: base_color * (1.0 - metallic) * (1.0 - albedo(f0, specular).max_element()),
+            specular: albedo(f0.lerp(base_color, metallic), specular + (1.0 - specular) * metallic),
+            specular_m_inv: rows(ggx.ltc.a, ggx.ltc.b, ggx.ltc.c),
+            base_weight,
+            light_side: (layering == Layering::Reciprocal).then(|| (alpha, color.max_element())),
+        }
+    }
+
+    /// What the sheen leaves of light of this cosine.
+    fn weight_from(&self, mu: f64) -> f64 {
+        let light = self.light_side.map(|(alpha, color)| 1.0 - color * self.table.lookup(alpha, mu)[2]);
+        light.map_or(self.base_weight, |light| light.min(self.base_weight))
+    }
+
+    /// The sum over the lobes that are asked for, of light that reaches each by `form_factor`.
+    fn reflected(&self, lobes: Lobes, base: f64, form_factor: impl Fn(DMat3) -> f64) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        if lobes.sheen {
+            sum += self.sheen * form_factor(self.sheen_m_inv);
+        }
+        if lobes.diffuse {
+            sum += base * self.diffuse * form_factor(DMat3::IDENTITY);
+        }
+        if lobes.specular && self.specular != DVec3::ZERO {
+            sum += base * self.specular * form_factor(self.specular_m_inv);
         }
         sum
+    }
+}
+
+/// A polygon light in the world.
+struct Lit {
+    radiance: DVec3,
+    contours: Vec<Vec<DVec3>>,
+    triangles: Vec<[DVec3; 3]>,
+    two_sided: bool,
+}
+
+impl Lit {
+    /// The mean of a function of the cosine over the light's directions, weighted by the cosine, by a sum over its area.
+    fn mean_cosine_weighted(&self, p_world: DVec3, normal: DVec3, value: impl Fn(f64) -> f64) -> f64 {
+        const PARTS: usize = 12;
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for [a, b, c] in &self.triangles {
+            let face = (b - a).cross(c - a);
+            for (i, j) in (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j))) {
+                // The square of parameters folded to the triangle.
+                let [u, v] = [i, j].map(|k| (k as f64 + 0.5) / PARTS as f64);
+                let point = a + u.sqrt() * (1.0 - v) * (b - a) + u.sqrt() * v * (c - a);
+                let way = point - p_world;
+                let mu = normal.dot(way.normalize()).max(0.0);
+                let weight = mu * face.dot(way).abs() / way.length().powi(3);
+                (sum, weights) = (sum + weight * value(mu), weights + weight);
+            }
+        }
+        if weights > 0.0 { sum / weights } else { 0.0 }
+    }
+}
+
+/// The direction from which a light without extent comes, and its irradiance across the ray (KHR_lights_punctual).
+fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, DVec3) {
+    let (intensity, direction) = (light.intensity.as_dvec3(), light.direction.as_dvec3());
+    let way = light.position.as_dvec3() - p_world;
+    let falloff = |range: f32| (1.0 - (way.length() / f64::from(range)).powi(4)).clamp(0.0, 1.0) / way.length_squared();
+    match light.kind {
+        PunctualKind::Directional => (-direction, intensity),
+        PunctualKind::Point { range } => (way.normalize(), intensity * falloff(range)),
+        PunctualKind::Spot { range, inner, outer } => {
+            let cosine = direction.dot(-way.normalize());
+            let (inner, outer) = (f64::from(inner).cos(), f64::from(outer).cos());
+            let cone = ((cosine - outer) / (inner - outer).max(1e-3)).clamp(0.0, 1.0).powi(2);
+            (way.normalize(), intensity * falloff(range) * cone)
+        }
     }
 }
 

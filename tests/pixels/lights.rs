@@ -1,0 +1,103 @@
+//! Lights of all kinds: many, without extent, and those that are skipped.
+
+use glam::Vec3;
+use velour::scene::{Material, PunctualKind, PunctualLight, Settings};
+use velour::table::LtcTable;
+
+use super::compare::{GPU, SIZE, differences, hold, linear, sheen_alone};
+use super::stage::{Stage, Thing, facing, glow, looking, velvet};
+use super::truth::Truth;
+
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
+const ORIGIN: [f32; 3] = [0.0; 3];
+
+fn cloth() -> Material {
+    Material { specular: 1.0, roughness: 0.5, ..velvet([0.9, 0.5, 0.2], 0.4) }
+}
+
+fn floor() -> Thing {
+    Thing::rectangle([1.5, 1.5], cloth()).placed(facing(ORIGIN, UP))
+}
+
+fn unseen() -> Settings {
+    Settings { lights_visible: false, ..Settings::default() }
+}
+
+#[test]
+fn lights_without_extent_shine_through_the_same_lobes() {
+    let light = |kind| PunctualLight {
+        name: String::new(),
+        kind,
+        intensity: Vec3::new(3.0, 2.0, 1.0),
+        position: Vec3::new(0.5, 1.0, -0.6),
+        direction: Vec3::new(-0.3, -0.9, 0.3).normalize(),
+    };
+    for kind in [
+        PunctualKind::Point { range: f32::INFINITY },
+        PunctualKind::Point { range: 1.8 },
+        PunctualKind::Spot { range: f32::INFINITY, inner: 0.3, outer: 0.6 },
+        PunctualKind::Spot { range: 3.0, inner: 0.0, outer: 0.8 },
+        PunctualKind::Directional,
+    ] {
+        let mut stage = Stage::new(vec![floor()], looking([0.4, 1.1, 2.6], ORIGIN));
+        stage.punctual.push(light(kind));
+        let (table, settings) = (LtcTable::embedded(), unseen());
+        let picture = linear(&stage.scene(), &table, &settings, SIZE);
+        differences(&picture, &Truth::new(&stage, &table, &settings, SIZE))
+            .unwrap_or_else(|said| panic!("{kind:?}: {said}"));
+    }
+}
+
+/// A ring of small panels about the floor, some of them turned away, some below it.
+fn panels(count: usize) -> Vec<Thing> {
+    let panel = |k: usize| {
+        let angle = k as f32 * 2.4;
+        let eye = [1.7 * angle.cos(), 0.9 - 1.5 * k as f32 / count as f32, 1.7 * angle.sin()];
+        let target = if k % 3 == 0 { eye.map(|at| 2.0 * at) } else { ORIGIN };
+        let color = [1.0 + (k % 5) as f32, 1.0 + (k % 3) as f32, 2.0].map(|radiance| 8.0 * radiance / count as f32);
+        let mut panel = Thing::rectangle([0.2, 0.1], glow(color)).placed(facing(eye, target));
+        panel.material.double_sided = k % 7 == 0;
+        panel
+    };
+    (0..count).map(panel).collect()
+}
+
+#[test]
+fn hundreds_of_lights_add_up_and_none_is_skipped_that_shines() {
+    for count in [16, 256] {
+        let things = [vec![floor()], panels(count)].concat();
+        hold(&Stage::new(things, looking([0.4, 1.1, 2.6], ORIGIN)), &sheen_alone());
+    }
+}
+
+#[test]
+fn moved_added_and_dimmed_lights_are_as_new_ones() {
+    use velour::renderer::Offscreen;
+    let stage = |count: usize| {
+        let things = [vec![floor()], panels(count)].concat();
+        Stage::new(things, looking([0.4, 1.1, 2.6], ORIGIN)).scene()
+    };
+    let (table, settings) = (LtcTable::embedded(), unseen());
+    let mut scene = stage(12);
+    let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
+    let picture = |offscreen: &mut Offscreen, scene: &velour::scene::Scene| {
+        GPU.block_on(offscreen.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap()
+    };
+    let before = picture(&mut offscreen, &scene);
+    for index in 0..scene.lights.len() {
+        scene.move_light(index, Vec3::new(0.1, 0.2, -0.1));
+        scene.lights[index].radiance *= 0.5;
+    }
+    scene.punctual_lights.push(PunctualLight {
+        name: String::new(),
+        kind: PunctualKind::Directional,
+        intensity: Vec3::ONE,
+        position: Vec3::ZERO,
+        direction: Vec3::NEG_Y,
+    });
+    offscreen.update(&GPU, &scene, &settings).unwrap();
+    let after = picture(&mut offscreen, &scene);
+    assert_ne!(before, after);
+    let mut anew = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
+    assert_eq!(after, picture(&mut anew, &scene));
+}
