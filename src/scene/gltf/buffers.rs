@@ -41,15 +41,18 @@ impl Deref for Bytes<'_> {
     }
 }
 
+/// The files that were read, by their paths.
+pub type Files = HashMap<PathBuf, Rc<Vec<u8>>>;
+
 /// Reads a file that must be an ordinary one: no folder, and nothing that never ends.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     let unreadable = |error: std::io::Error| Fault::new(format_args!("can't be read ({error}); check the path"));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
-        return Err(Fault::new("is a folder; give a .gltf or .glb file"));
+        return Err(Fault::new("is a folder; name a file"));
     }
     if !metadata.is_file() {
-        return Err(Fault::new("is no ordinary file; give a .gltf or .glb file"));
+        return Err(Fault::new("is no ordinary file; name one"));
     }
     if metadata.len() > FILE_BYTES_MAX {
         let length = metadata.len();
@@ -65,7 +68,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
 /// are none.
 pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<Bytes<'a>>, Fault> {
     // The same file may stand behind many buffers: its bytes are held once.
-    let mut files = HashMap::new();
+    let mut files = Files::new();
     let mut buffers = Vec::with_capacity(document.root.buffers.len());
     for (index, buffer) in document.root.buffers.iter().enumerate() {
         let place = || label("buffer", index, buffer.name.as_deref());
@@ -87,7 +90,8 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
     Ok(buffers)
 }
 
-fn fetch(uri: &str, folder: Option<&Path>, files: &mut HashMap<PathBuf, Rc<Vec<u8>>>) -> Result<Rc<Vec<u8>>, Fault> {
+/// What a URI stands for: a file in `folder`, read once, or the data in the URI itself.
+pub fn fetch(uri: &str, folder: Option<&Path>, files: &mut Files) -> Result<Rc<Vec<u8>>, Fault> {
     if let Some(data) = uri.strip_prefix("data:") {
         return decode(data).map(Rc::new);
     }

@@ -9,7 +9,7 @@ use super::Fault;
 const COUNT_MAX: usize = 1 << 20;
 
 /// Members whose numbers index, or stand for, something. Their type in `Root` is 32 bits wide, and wider numbers wrap.
-const INDICES: [&str; 19] = [
+const INDICES: [&str; 24] = [
     "buffer",
     "bufferView",
     "camera",
@@ -19,8 +19,10 @@ const INDICES: [&str; 19] = [
     "indices",
     "input",
     "joints",
+    "magFilter",
     "material",
     "mesh",
+    "minFilter",
     "mode",
     "node",
     "nodes",
@@ -29,6 +31,9 @@ const INDICES: [&str; 19] = [
     "scene",
     "skeleton",
     "skin",
+    "source",
+    "wrapS",
+    "wrapT",
 ];
 
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.

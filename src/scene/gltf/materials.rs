@@ -1,29 +1,28 @@
-//! Materials: the factors that are drawn, with their ranges checked.
+//! Materials: factors with their ranges checked, and which textures they use.
 
 use std::ops::RangeInclusive;
 
 use glam::Vec3;
-use gltf::json::material::AlphaMode;
-use gltf::json::texture::{Info, Texture};
-use gltf::json::validation::Checked;
-use gltf::json::{self, Index, Root};
-use serde::Deserialize;
+use gltf::json::material::AlphaMode as JsonAlphaMode;
+use gltf::json::validation::Checked::{Invalid, Valid};
+use gltf::json::{self, Root};
 use serde_json::Value;
 
 use super::Fault;
+use super::material_extensions::{self as extensions, Fuzz, Ior, Sheen as SheenExtension, Specular, extension};
+use super::texture_uses::{Uses, tex_coord_limit};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Material, Sheen};
+use crate::scene::{AlphaMode, Material, Sheen, TextureSlot};
 
-const SHEEN: &str = "KHR_materials_sheen";
-const SHEEN_TEXTURES: [&str; 2] = ["sheenColorTexture", "sheenRoughnessTexture"];
-
-/// In the order of `Scene::materials`: the file's own.
+/// In the order of `Scene::materials`: the file's own. What they name as textures are the file's, not yet the scene's.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
     let read = |(index, material): (usize, &json::Material)| {
         let place = || label("material", index, material.name.as_deref());
-        note(material, &place, notices);
-        read_one(material).map_err(|what| Fault::at(place(), what))
+        extensions::note(material, &place, notices);
+        let mut read = read_one(material, root.textures.len()).map_err(|what| Fault::at(place(), what))?;
+        tex_coord_limit(&mut read, &place, notices);
+        Ok(read)
     };
     root.materials.iter().enumerate().map(read).collect()
 }
@@ -33,61 +32,111 @@ pub fn default_material() -> Material {
     Material { metallic: 1.0, specular: 1.0, ..Material::matte("default", Vec3::ONE) }
 }
 
-fn read_one(material: &json::Material) -> Result<Material, String> {
-    let pbr = &material.pbr_metallic_roughness;
-    let base_color = in_unit("baseColorFactor", pbr.base_color_factor.0)?;
-    in_unit("metallicFactor", [pbr.metallic_factor.0])?;
-    in_unit("roughnessFactor", [pbr.roughness_factor.0])?;
-    in_range("alphaCutoff", [material.alpha_cutoff.unwrap_or_default().0], 0.0..=f32::MAX)?;
-    if material.alpha_mode == Checked::Invalid {
-        return Err("alphaMode is none of OPAQUE, MASK, BLEND; give one of them".to_owned());
+fn read_one(material: &json::Material, textures: usize) -> Result<Material, String> {
+    let none = serde_json::Map::new();
+    let others = material.extensions.as_ref().map_or(&none, |extensions| &extensions.others);
+    let mut uses = Uses::new(textures);
+    let mut read = read_core(material, &mut uses)?;
+    read_layers(others, &mut read, &mut uses)?;
+    read.emission *= emissive_strength(material)?;
+    read.textures = uses.slots;
+    if others.contains_key(extensions::UNLIT) {
+        // Nothing but the base color counts.
+        let base_color = read.texture(TextureSlot::BaseColor);
+        (read.unlit, read.emission, read.sheen) = (true, Vec3::ZERO, None);
+        read.textures = [None; TextureSlot::COUNT];
+        read.textures[TextureSlot::BaseColor as usize] = base_color;
     }
-    let emissive = Vec3::from(in_unit("emissiveFactor", material.emissive_factor.0)?);
-    let extensions = material.extensions.as_ref();
-    let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
+    Ok(read)
+}
+
+/// What glTF has without extensions.
+fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, String> {
+    let pbr = &material.pbr_metallic_roughness;
+    let [red, green, blue, opacity] = in_unit("baseColorFactor", pbr.base_color_factor.0)?;
+    let [metallic] = in_unit("metallicFactor", [pbr.metallic_factor.0])?;
+    let [roughness] = in_unit("roughnessFactor", [pbr.roughness_factor.0])?;
+    let emission = in_unit("emissiveFactor", material.emissive_factor.0)?.into();
+    uses.add("baseColorTexture", TextureSlot::BaseColor, &pbr.base_color_texture)?;
+    uses.add("metallicRoughnessTexture", TextureSlot::MetallicRoughness, &pbr.metallic_roughness_texture)?;
+    uses.add("emissiveTexture", TextureSlot::Emission, &material.emissive_texture)?;
+    let mut read = Material {
+        name: super::cut(material.name.as_deref().unwrap_or_default()),
+        opacity,
+        alpha_mode: alpha_mode(material)?,
+        metallic,
+        roughness,
+        emission,
+        double_sided: material.double_sided,
+        ..Material::matte("", Vec3::new(red, green, blue))
+    };
+    if let Some(normal) = &material.normal_texture {
+        [read.normal_scale] = in_range("normalTexture.scale", [normal.scale], f32::MIN..=f32::MAX)?;
+        let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
+        uses.add_parts("normalTexture", TextureSlot::Normal, (normal.index, normal.tex_coord, others))?;
+    }
+    if let Some(occlusion) = &material.occlusion_texture {
+        [read.occlusion_strength] = in_unit("occlusionTexture.strength", [occlusion.strength.0])?;
+        let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
+        uses.add_parts("occlusionTexture", TextureSlot::Occlusion, (occlusion.index, occlusion.tex_coord, others))?;
+    }
+    Ok(read)
+}
+
+fn alpha_mode(material: &json::Material) -> Result<AlphaMode, String> {
+    let [cutoff] = in_range("alphaCutoff", [material.alpha_cutoff.unwrap_or_default().0], 0.0..=f32::MAX)?;
+    match material.alpha_mode {
+        Valid(JsonAlphaMode::Opaque) => Ok(AlphaMode::Opaque),
+        Valid(JsonAlphaMode::Mask) => Ok(AlphaMode::Mask { cutoff }),
+        Valid(JsonAlphaMode::Blend) => Ok(AlphaMode::Blend),
+        Invalid => Err("alphaMode is none of OPAQUE, MASK, BLEND; give one of them".to_owned()),
+    }
+}
+
+fn emissive_strength(material: &json::Material) -> Result<f32, String> {
+    let strength = material.extensions.as_ref().and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
     let [strength] = in_range("emissiveStrength", [strength], 0.0..=f32::MAX)?;
-    Ok(Material {
-        name: super::cut(material.name.as_deref().unwrap_or_default()),
-        base_color: Vec3::new(base_color[0], base_color[1], base_color[2]),
-        sheen: extensions.and_then(|extensions| extensions.others.get(SHEEN)).map(read_sheen).transpose()?,
-        emission: emissive * strength,
-        double_sided: material.double_sided,
-        ..Material::matte("", Vec3::ONE)
-    })
+    Ok(strength)
 }
 
-fn read_sheen(value: &Value) -> Result<Sheen, String> {
-    let wrong = || format!("{SHEEN} must be an object of numbers; correct it");
-    let members = value.as_object().ok_or_else(wrong)?;
-    let number = |value: &Value| value.as_f64().map(|number| number as f32);
-    let color = match members.get("sheenColorFactor") {
-        None => [0.0; 3],
-        Some(value) => {
-            let color = value.as_array().and_then(|color| color.iter().map(number).collect::<Option<Vec<f32>>>());
-            let color = color.and_then(|color| <[f32; 3]>::try_from(color).ok());
-            color.ok_or_else(|| format!("sheenColorFactor is {}, not three numbers; correct it", brief(value)))?
-        }
-    };
-    let roughness = match members.get("sheenRoughnessFactor") {
-        None => 0.0,
-        Some(value) => {
-            number(value).ok_or_else(|| format!("sheenRoughnessFactor is {}, no number; correct it", brief(value)))?
-        }
-    };
-    for name in SHEEN_TEXTURES {
-        let broken = |error| format!("{name} is broken ({error}); correct it");
-        members.get(name).map(texture).transpose().map_err(broken)?;
+/// The specular reflection of dielectrics, and the sheen.
+fn read_layers(others: &serde_json::Map<String, Value>, read: &mut Material, uses: &mut Uses) -> Result<(), String> {
+    let specular: Specular = extension(others)?.unwrap_or_default();
+    [read.specular] = in_unit("specularFactor", [specular.specular_factor])?;
+    read.specular_color = in_range("specularColorFactor", specular.specular_color_factor, 0.0..=f32::MAX)?.into();
+    uses.add("specularTexture", TextureSlot::Specular, &specular.specular_texture)?;
+    uses.add("specularColorTexture", TextureSlot::SpecularColor, &specular.specular_color_texture)?;
+    read.ior = extension::<Ior>(others)?.unwrap_or_default().ior;
+    if read.ior != 0.0 && !(1.0..=f32::MAX).contains(&read.ior) {
+        return Err(format!("ior is {}; give 0 or a finite number from 1 up", read.ior));
     }
-    let color = Vec3::from(in_unit("sheenColorFactor", color)?);
-    let [roughness] = in_unit("sheenRoughnessFactor", [roughness])?;
-    Ok(Sheen::new(color, roughness))
+    let sheen = extension::<SheenExtension>(others)?;
+    read.sheen = sheen.map(|sheen| read_sheen(&sheen, uses)).transpose()?;
+    if let Some(fuzz) = extension::<Fuzz>(others)? {
+        // Whatever its factor: a sheen beside it is for those who do not know fuzz.
+        read.sheen = Some(read_fuzz(&fuzz, uses)?);
+    }
+    Ok(())
 }
 
-/// JSON as it can stand in a line.
-fn brief(value: &Value) -> String {
-    let text = value.to_string();
-    if text.chars().count() > 40 { text.chars().take(37).chain("...".chars()).collect() } else { text }
+fn read_sheen(sheen: &SheenExtension, uses: &mut Uses) -> Result<Sheen, String> {
+    let color = in_unit("sheenColorFactor", sheen.sheen_color_factor)?;
+    let [roughness] = in_unit("sheenRoughnessFactor", [sheen.sheen_roughness_factor])?;
+    uses.add("sheenColorTexture", TextureSlot::SheenColor, &sheen.sheen_color_texture)?;
+    uses.add("sheenRoughnessTexture", TextureSlot::SheenRoughness, &sheen.sheen_roughness_texture)?;
+    Ok(Sheen::new(color.into(), roughness))
+}
+
+fn read_fuzz(fuzz: &Fuzz, uses: &mut Uses) -> Result<Sheen, String> {
+    let [weight] = in_unit("fuzzFactor", [fuzz.fuzz_factor])?;
+    let color = in_unit("fuzzColorFactor", fuzz.fuzz_color_factor)?;
+    let [roughness] = in_unit("fuzzRoughnessFactor", [fuzz.fuzz_roughness_factor])?;
+    (uses.slots[TextureSlot::SheenColor as usize], uses.slots[TextureSlot::SheenRoughness as usize]) = (None, None);
+    uses.add("fuzzTexture", TextureSlot::SheenWeight, &fuzz.fuzz_texture)?;
+    uses.add("fuzzColorTexture", TextureSlot::SheenColor, &fuzz.fuzz_color_texture)?;
+    uses.add("fuzzRoughnessTexture", TextureSlot::SheenRoughness, &fuzz.fuzz_roughness_texture)?;
+    Ok(Sheen { color: color.into(), roughness, weight })
 }
 
 fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
@@ -95,48 +144,11 @@ fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], Str
 }
 
 fn in_range<const N: usize>(name: &str, values: [f32; N], range: RangeInclusive<f32>) -> Result<[f32; N], String> {
+    let (start, end) = (*range.start(), *range.end());
     match values.iter().find(|value| !range.contains(value)) {
         None => Ok(values),
-        Some(value) if *range.end() == f32::MAX => Err(format!("{name} is {value}; give a finite number from 0 up")),
-        Some(value) => Err(format!("{name} is {value}; give a number in [{}, {}]", range.start(), range.end())),
-    }
-}
-
-/// The textures of a material by their members' names.
-pub fn textures(material: &json::Material) -> Vec<(&'static str, Index<Texture>)> {
-    let pbr = &material.pbr_metallic_roughness;
-    let sheen = material.extensions.as_ref().and_then(|extensions| extensions.others.get(SHEEN));
-    let of_sheen = |name| sheen.and_then(|sheen| texture(sheen.get(name)?).ok());
-    let textures = [
-        ("baseColorTexture", pbr.base_color_texture.as_ref().map(|texture| texture.index)),
-        ("metallicRoughnessTexture", pbr.metallic_roughness_texture.as_ref().map(|texture| texture.index)),
-        ("normalTexture", material.normal_texture.as_ref().map(|texture| texture.index)),
-        ("occlusionTexture", material.occlusion_texture.as_ref().map(|texture| texture.index)),
-        ("emissiveTexture", material.emissive_texture.as_ref().map(|texture| texture.index)),
-        (SHEEN_TEXTURES[0], of_sheen(SHEEN_TEXTURES[0])),
-        (SHEEN_TEXTURES[1], of_sheen(SHEEN_TEXTURES[1])),
-    ];
-    textures.into_iter().filter_map(|(name, texture)| Some((name, texture?))).collect()
-}
-
-fn texture(value: &Value) -> Result<Index<Texture>, serde_json::Error> {
-    Info::deserialize(value).map(|info| info.index)
-}
-
-/// Notes what of a material is not drawn.
-fn note(material: &json::Material, place: &dyn Fn() -> String, notices: &mut Notices) {
-    for (texture, _) in textures(material) {
-        notices.add("textures are not drawn yet, only the factors beside them", || format!("{texture} of {}", place()));
-    }
-    if material.pbr_metallic_roughness.metallic_factor.0 > 0.0 {
-        notices.add("metals are drawn with their base color as a diffuse one", place);
-    }
-    if !matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {
-        notices.add("transparent materials are drawn opaque", place);
-    }
-    for name in material.extensions.iter().flat_map(|extensions| extensions.others.keys()) {
-        if name != SHEEN {
-            notices.add("material extensions that are not drawn", || format!("{name} of {}", place()));
-        }
+        Some(value) if start == f32::MIN => Err(format!("{name} is {value}; give a finite number")),
+        Some(value) if end == f32::MAX => Err(format!("{name} is {value}; give a finite number from {start} up")),
+        Some(value) => Err(format!("{name} is {value}; give a number in [{start}, {end}]")),
     }
 }

@@ -9,13 +9,17 @@ mod assembly;
 mod buffers;
 mod cameras;
 mod container;
+mod images;
 mod json;
+mod material_extensions;
 mod materials;
 mod nodes;
 mod primitives;
 mod references;
 #[cfg(test)]
 mod tests;
+mod texture_uses;
+mod textures;
 
 use std::path::Path;
 
@@ -25,13 +29,23 @@ use super::{Scene, framing, lights, rig};
 use ::gltf::json::Root;
 use accessor::Accessors;
 use assembly::Assembly;
+use images::Sources;
 
 /// Extensions that a file may require.
-const SERVED: [&str; 2] = ["KHR_materials_emissive_strength", "KHR_materials_sheen"];
+const SERVED: &[&str] = &[
+    "EXT_texture_webp",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_fuzz",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_texture_transform",
+];
 /// Names are cut to this many characters: many things may bear the same one.
 const NAME_MAX: usize = 256;
 
-/// The scene in a .gltf file, with the buffers that lie beside it, or in a .glb file.
+/// The scene in a .gltf file, with the buffers and images that lie beside it, or in a .glb file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
     // Only a path without a file name has no parent.
@@ -40,7 +54,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     scene.map_err(|fault| SceneError::new(&file, fault))
 }
 
-/// The scene in the bytes of a .glb, or of a .gltf with all buffers in it. `name` stands for the file in errors.
+/// The scene in the bytes of a .glb, or of a .gltf with all buffers and images in it. `name` stands for the file in errors.
 pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
     read(bytes, None).map_err(|fault| SceneError::new(name, fault))
 }
@@ -61,6 +75,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     if scene.instances.is_empty() {
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
+    textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
     lights::add_lights(&mut scene, 0, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
     rig::add_rig(&mut scene, &mut notices);

@@ -4,10 +4,10 @@ use gltf::json::{Index, Root};
 
 use super::assembly::primitive_label;
 use super::nodes::node_label;
-use super::{Fault, materials};
+use super::{Fault, textures};
 use crate::scene::error::label;
 
-/// Checks what nodes, primitives, materials, textures, images and skins refer to, in the scene or not.
+/// Checks what nodes, primitives, textures, images and skins refer to, in the scene or not.
 pub fn check(root: &Root) -> Result<(), Fault> {
     for (index, node) in root.nodes.iter().enumerate() {
         let place = || node_label(root, index);
@@ -25,15 +25,6 @@ pub fn check(root: &Root) -> Result<(), Fault> {
             within("material", root.materials.len(), &primitive.material, place)?;
         }
     }
-    for (index, material) in root.materials.iter().enumerate() {
-        let place = || label("material", index, material.name.as_deref());
-        within(
-            "texture",
-            root.textures.len(),
-            materials::textures(material).iter().map(|(_, texture)| texture),
-            place,
-        )?;
-    }
     check_pictures(root)?;
     for (index, skin) in root.skins.iter().enumerate() {
         let place = || label("skin", index, skin.name.as_deref());
@@ -45,10 +36,10 @@ pub fn check(root: &Root) -> Result<(), Fault> {
 
 fn check_pictures(root: &Root) -> Result<(), Fault> {
     for (index, texture) in root.textures.iter().enumerate() {
-        let place = || label("texture", index, texture.name.as_deref());
+        let place = || textures::texture_label(root, index);
         within("sampler", root.samplers.len(), &texture.sampler, place)?;
-        // Where an extension names another kind of image in its stead the source is missing, which reads as this.
-        let source = Some(texture.source).filter(|source| source.value() != u32::MAX as usize);
+        // Where an extension names another kind of image in its stead the source is missing.
+        let source = textures::has_source(texture).then_some(texture.source);
         within("image", root.images.len(), &source, place)?;
     }
     for (index, image) in root.images.iter().enumerate() {

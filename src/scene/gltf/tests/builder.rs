@@ -1,8 +1,11 @@
 //! glTF files in memory.
 
+use std::io::Cursor;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::Vec3;
+use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use serde_json::{Value, json};
 
 use crate::scene::Scene;
@@ -17,7 +20,18 @@ impl Builder {
     /// A file with nothing in it.
     pub fn new() -> Self {
         let mut json = json!({ "asset": { "version": "2.0" } });
-        for list in ["buffers", "bufferViews", "accessors", "materials", "meshes", "nodes", "cameras"] {
+        for list in [
+            "buffers",
+            "bufferViews",
+            "accessors",
+            "materials",
+            "meshes",
+            "nodes",
+            "cameras",
+            "images",
+            "textures",
+            "samplers",
+        ] {
             json[list] = json!([]);
         }
         json["buffers"] = json!([{ "byteLength": 0 }]);
@@ -84,16 +98,28 @@ impl Builder {
         list.len() - 1
     }
 
-    /// Adds an accessor over `bytes` in a view of its own.
-    pub fn accessor(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str) -> usize {
+    /// Adds a view of `bytes`.
+    pub fn view(&mut self, bytes: &[u8]) -> usize {
         let offset = self.bytes.len();
         self.bytes.extend(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.json["buffers"][0]["byteLength"] = json!(self.bytes.len());
         let view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() });
-        let view = self.push("bufferViews", view);
+        self.push("bufferViews", view)
+    }
+
+    /// Adds an accessor over `bytes` in a view of its own.
+    pub fn accessor(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str) -> usize {
+        let view = self.view(bytes);
         let accessor = json!({ "bufferView": view, "count": count, "componentType": component, "type": kind });
         self.push("accessors", accessor)
+    }
+
+    /// Adds a texture that shows an image of these bytes.
+    pub fn texture(&mut self, bytes: &[u8]) -> usize {
+        let view = self.view(bytes);
+        let image = self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
+        self.push("textures", json!({ "source": image }))
     }
 
     pub fn vectors(&mut self, vectors: &[Vec3]) -> usize {
@@ -137,6 +163,19 @@ impl Builder {
     }
 }
 
+/// The bytes of an image file of this size: a red that grows to the right, a green that grows downwards, some blue.
+pub fn picture(format: ImageFormat, width: u32, height: u32) -> Vec<u8> {
+    let texel = |x: u32, y: u32| Rgb([(255 * x / width) as u8, (255 * y / height) as u8, 100]);
+    encoded(RgbImage::from_fn(width, height, texel).into(), format)
+}
+
+/// The bytes of an image file.
+pub fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
 /// Reads a file; what is read must be whole.
 pub fn read(bytes: &[u8]) -> Result<Scene, String> {
     let scene = crate::scene::gltf::from_slice(bytes, "test.glb").map_err(|error| error.to_string())?;
@@ -175,6 +214,16 @@ pub fn check(scene: &Scene) {
     }
     for material in &scene.materials {
         assert!(material.base_color.is_finite() && material.emission.is_finite());
+        for texture in material.textures.iter().flatten() {
+            assert!(texture.texture < scene.textures.len() && texture.tex_coord < 2);
+            assert!(texture.uv_from_tex_coord.is_finite());
+        }
+    }
+    for texture in &scene.textures {
+        assert!(texture.image < scene.images.len());
+    }
+    for image in &scene.images {
+        assert!(image.texels.len() == image.width as usize * image.height as usize && !image.texels.is_empty());
     }
     for light in &scene.lights {
         assert!(light.instance < scene.instances.len() && light.radiance.is_finite() && !light.polygons.is_empty());

@@ -3,6 +3,9 @@
 mod builder;
 mod bytes;
 mod files;
+mod images;
+mod materials;
 mod mutations;
 mod reads;
+mod textures;
 mod values;

@@ -2,11 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use image::ImageFormat;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use serde_json::{Value, json};
 
-use super::builder::{Builder, glb, read};
+use super::builder::{Builder, glb, picture, read};
 
 /// Reads `bytes`; `read` checks the scene. Tells whether there is one.
 fn survives(bytes: &[u8]) -> bool {
@@ -64,8 +65,62 @@ fn changed_bytes_of_the_buffer() {
 
 #[test]
 fn changed_values() {
-    let mut random = Pcg32::seed_from_u64(3);
-    let file = Builder::studio();
+    change_values(Builder::studio(), 3);
+}
+
+#[test]
+fn changed_values_of_materials_and_textures() {
+    change_values(dressed(), 4);
+}
+
+#[test]
+fn changed_bytes_of_images() {
+    let mut random = Pcg32::seed_from_u64(5);
+    let file = dressed();
+    let json = file.json.to_string();
+    let views = &file.json["bufferViews"].as_array().unwrap()[5..];
+    let mut read = 0;
+    const ROUNDS: usize = 2000;
+    for _ in 0..ROUNDS {
+        let mut bytes = file.bytes.clone();
+        let view = &views[random.random_range(0..views.len())];
+        let [start, length] = ["byteOffset", "byteLength"].map(|key| view[key].as_u64().unwrap() as usize);
+        for _ in 0..random.random_range(1..4) {
+            bytes[start + random.random_range(0..length)] = random.random();
+        }
+        read += usize::from(survives(&glb(json.as_bytes(), &bytes)));
+    }
+    assert!(read > ROUNDS / 20 && read < ROUNDS, "{read} of {ROUNDS} are read");
+}
+
+/// The studio with every extension of materials, and images of every format.
+fn dressed() -> Builder {
+    let mut file = Builder::studio();
+    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP] {
+        file.texture(&picture(format, 6, 5));
+    }
+    file.json["textures"][2] =
+        json!({ "sampler": 0, "source": 0, "extensions": { "EXT_texture_webp": { "source": 2 } } });
+    file.push("samplers", json!({ "magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648 }));
+    let transform = json!({ "offset": [0.5, 0.5], "rotation": 1.0, "scale": [2, 3], "texCoord": 1 });
+    let info = |index: usize| json!({ "index": index, "extensions": { "KHR_texture_transform": transform } });
+    let material = &mut file.json["materials"][0];
+    material["pbrMetallicRoughness"]["baseColorTexture"] = info(0);
+    material["normalTexture"] = json!({ "index": 1, "scale": 0.5 });
+    material["occlusionTexture"] = json!({ "index": 0, "strength": 0.5, "texCoord": 1 });
+    (material["alphaMode"], material["alphaCutoff"]) = (json!("MASK"), json!(0.25));
+    material["extensions"] = json!({
+        "KHR_materials_fuzz": { "fuzzFactor": 0.5, "fuzzTexture": info(1), "fuzzColorFactor": [1, 0.5, 0] },
+        "KHR_materials_ior": { "ior": 1.4 },
+        "KHR_materials_sheen": { "sheenColorFactor": [1, 0.5, 0], "sheenColorTexture": info(2) },
+        "KHR_materials_specular": { "specularColorFactor": [2, 1, 1], "specularColorTexture": info(2) },
+    });
+    file.json["materials"][1]["emissiveTexture"] = info(2);
+    file
+}
+
+fn change_values(file: Builder, seed: u64) {
+    let mut random = Pcg32::seed_from_u64(seed);
     let mut pointers = Vec::new();
     collect(&file.json, String::new(), &mut pointers);
     let mut read = 0;
@@ -112,7 +167,8 @@ fn change(json: &mut Value, pointer: &str, random: &mut Pcg32) {
         _ => match json.pointer_mut(parent) {
             Some(Value::Object(members)) => return drop(members.remove(key)),
             Some(Value::Array(elements)) => {
-                let at = key.parse::<usize>().unwrap();
+                // What was an object may be an array by now.
+                let at = key.parse().unwrap_or(usize::MAX);
                 return if at < elements.len() {
                     drop(elements.remove(at))
                 };

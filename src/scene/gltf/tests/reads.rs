@@ -205,28 +205,3 @@ fn vertices_in_strides_and_out_of_use() {
     assert_eq!(scene.meshes[0].normals, [Vec3::Z; 3]);
     assert_eq!(scene.meshes[0].indices, [0, 1, 2]);
 }
-
-#[test]
-fn what_is_not_drawn_is_noted_once_a_kind() {
-    let mut file = Builder::studio();
-    file.json["images"] = json!([{ "uri": "cloth.png" }]);
-    file.json["textures"] = json!([{ "source": 0 }]);
-    file.json["animations"] =
-        json!([{ "channels": [{ "target": { "path": "weights" }, "sampler": 0 }], "samplers": [] }]);
-    let pbr = json!({ "baseColorTexture": { "index": 0 }, "metallicFactor": 1.0 });
-    for material in 0..2 {
-        file.json["materials"][material]["pbrMetallicRoughness"] = pbr.clone();
-        file.json["materials"][material]["alphaMode"] = json!("BLEND");
-        file.json["materials"][material]["extensions"]["KHR_materials_ior"] = json!({ "ior": 1.4 });
-    }
-    assert_eq!(
-        file.read().notices,
-        [
-            "textures are not drawn yet, only the factors beside them: \
-             baseColorTexture of material 0 \"felt\" and 1 more",
-            "metals are drawn with their base color as a diffuse one: material 0 \"felt\" and 1 more",
-            "transparent materials are drawn opaque: material 0 \"felt\" and 1 more",
-            "material extensions that are not drawn: KHR_materials_ior of material 0 \"felt\" and 1 more",
-        ]
-    );
-}

@@ -105,13 +105,13 @@ fn values_of_the_wrong_type() {
             "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor",
             json!("rough"),
             "material 0 \"felt\"",
-            "sheenRoughnessFactor is \"rough\"",
+            "KHR_materials_sheen: sheenRoughnessFactor: invalid type: string \"rough\"",
         ),
         (
             "/materials/0/extensions/KHR_materials_sheen/sheenColorFactor",
             json!([1, 1]),
             "material 0 \"felt\"",
-            "sheenColorFactor is [1,1]",
+            "KHR_materials_sheen: sheenColorFactor",
         ),
         (
             "/materials/0/extensions/KHR_materials_sheen/sheenColorTexture",

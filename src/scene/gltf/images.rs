@@ -1,0 +1,177 @@
+//! Images: fetched, and decoded in parallel within bounds.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use gltf::json::Root;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use rayon::prelude::*;
+
+use super::Fault;
+use super::buffers::{self, Bytes};
+use crate::scene::Image;
+use crate::scene::error::label;
+use crate::scene::notices::Notices;
+
+/// Images with a longer side than this are refused before memory is asked for.
+const SIDE_MAX: u32 = 1 << 14;
+/// Longer sides than this are halved: what every device has room for.
+const KEPT_SIDE_MAX: u32 = 1 << 13;
+/// The most texels that all images have together: 1 GiB.
+const TEXELS_MAX: u64 = 1 << 28;
+/// The most that a decoder may ask for: the largest image in 16 bits a channel.
+const DECODER_BYTES_MAX: u64 = 8 * (SIDE_MAX as u64) * (SIDE_MAX as u64);
+
+/// What the bytes of images come from.
+pub struct Sources<'a> {
+    pub root: &'a Root,
+    pub buffers: &'a [Bytes<'a>],
+    /// Where the files stand that images name; without one there are none.
+    pub folder: Option<&'a Path>,
+}
+
+/// An image that is not decoded yet.
+struct Encoded<'a> {
+    /// As errors name it.
+    place: String,
+    name: String,
+    bytes: &'a [u8],
+    format: ImageFormat,
+    size: [u32; 2],
+}
+
+/// Decodes these of the file's images, in this order.
+pub fn read(sources: &Sources, indices: &[usize], notices: &mut Notices) -> Result<Vec<Image>, Fault> {
+    let mut files = buffers::Files::new();
+    let mut fetched = Vec::with_capacity(indices.len());
+    for &index in indices {
+        let bytes = sources.fetch(index, &mut files).map_err(|fault| Fault::at(sources.label(index), fault))?;
+        fetched.push((index, bytes));
+    }
+    let mut encoded = Vec::with_capacity(indices.len());
+    let mut texels = 0;
+    for (index, bytes) in &fetched {
+        let place = sources.label(*index);
+        let name = super::cut(sources.root.images[*index].name.as_deref().unwrap_or_default());
+        let (format, size) = head(bytes).map_err(|what| Fault::at(&place, what))?;
+        let kept = kept_size(size);
+        texels += u64::from(kept[0]) * u64::from(kept[1]);
+        if kept != size {
+            notices.add("images of more than 8192 texels a side are reduced", || place.clone());
+        }
+        if texels > TEXELS_MAX {
+            let what = format_args!("the images up to here hold {texels} texels, of {TEXELS_MAX} served; reduce them");
+            return Err(Fault::at(place, what));
+        }
+        encoded.push(Encoded { place, name, bytes, format, size });
+    }
+    // Large ones one after the other: each takes as much again, or more, while it is decoded.
+    let is_large = |image: &&Encoded| kept_size(image.size) != image.size;
+    let mut large = encoded.iter().filter(is_large).map(decode).collect::<Result<Vec<_>, _>>()?.into_iter();
+    let small: Vec<&Encoded> = encoded.iter().filter(|image| !is_large(image)).collect();
+    let mut small = small.into_par_iter().map(decode).collect::<Result<Vec<_>, _>>()?.into_iter();
+    let next = |image: &Encoded| if is_large(&image) { large.next() } else { small.next() };
+    Ok(encoded.iter().filter_map(next).collect())
+}
+
+impl<'a> Sources<'a> {
+    fn label(&self, index: usize) -> String {
+        label("image", index, self.root.images[index].name.as_deref())
+    }
+
+    fn fetch(&self, index: usize, files: &mut buffers::Files) -> Result<Bytes<'a>, Fault> {
+        let image = &self.root.images[index];
+        let view = image.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
+        match (view, &image.uri) {
+            (Some(bytes), _) => Ok(Bytes::Within(bytes)),
+            (None, Some(uri)) => buffers::fetch(uri, self.folder, files).map(Bytes::Read),
+            (None, None) => Err(Fault::new("has neither a uri nor a bufferView; export the file again")),
+        }
+    }
+}
+
+/// Format and size, by the bytes alone: what a file says of its images is often wrong.
+fn head(bytes: &[u8]) -> Result<(ImageFormat, [u32; 2]), String> {
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => format,
+        _ if bytes.starts_with(b"\xabKTX") => return Err("is a KTX image; export it as PNG, JPEG or WebP".to_owned()),
+        _ => return Err("is no PNG, JPEG or WebP image; export it as one of these".to_owned()),
+    };
+    let (width, height) = decoder(bytes, format)?.dimensions();
+    if width == 0 || height == 0 || width.max(height) > SIDE_MAX {
+        return Err(format!("is {width} x {height}; give an image of 1 to {SIDE_MAX} texels a side"));
+    }
+    Ok((format, [width, height]))
+}
+
+fn decoder(bytes: &[u8], format: ImageFormat) -> Result<impl ImageDecoder + '_, String> {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(DECODER_BYTES_MAX);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits);
+    reader.into_decoder().map_err(|error| broken(&error))
+}
+
+fn broken(error: &image::ImageError) -> String {
+    format!("is broken ({}); copy or export it again", super::cut(&error.to_string()))
+}
+
+fn decode(encoded: &Encoded) -> Result<Image, Fault> {
+    let wrong = |what: String| Fault::at(&encoded.place, what);
+    let decoder = decoder(encoded.bytes, encoded.format).map_err(wrong)?;
+    let decoded = DynamicImage::from_decoder(decoder).map_err(|error| wrong(broken(&error)))?;
+    if encoded.format == ImageFormat::Jpeg && !jpeg_ends(encoded.bytes) {
+        return Err(wrong("is cut short; copy or export it again".to_owned()));
+    }
+    let decoded = decoded.into_rgba8();
+    let (width, height) = decoded.dimensions();
+    let texels = decoded.into_raw().as_chunks::<4>().0.to_vec();
+    let mut image = Image { name: encoded.name.clone(), width, height, texels };
+    while kept_size([image.width, image.height]) != [image.width, image.height] {
+        image = halved(&image);
+    }
+    Ok(image)
+}
+
+/// What is left of an image's size when its sides are halved until they may be kept.
+fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
+    match width.max(height) > KEPT_SIDE_MAX {
+        true => kept_size([width.div_ceil(2), height.div_ceil(2)]),
+        false => [width, height],
+    }
+}
+
+/// Half as large: the mean of each two by two texels, of their numbers as they are stored. The last of an odd row or column
+/// is taken twice.
+fn halved(image: &Image) -> Image {
+    let [width, height] = [image.width, image.height].map(|side| side.div_ceil(2));
+    let at = |x: u32, y: u32| {
+        let [x, y] = [x.min(image.width - 1), y.min(image.height - 1)].map(|at| at as usize);
+        image.texels[y * image.width as usize + x]
+    };
+    let mean = |x: u32, y: u32| {
+        let texels = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(right, down)| at(2 * x + right, 2 * y + down));
+        std::array::from_fn(|channel| {
+            (texels.iter().map(|texel| u16::from(texel[channel])).sum::<u16>() + 2).div_euclid(4) as u8
+        })
+    };
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect();
+    Image { name: image.name.clone(), width, height, texels }
+}
+
+/// Whether a JPEG file's end is there: its decoder fills what is missing with grey.
+fn jpeg_ends(bytes: &[u8]) -> bool {
+    // Zeros, restart markers and fill bytes after 0xff stand within the data.
+    let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 1 | 0xd0..=0xd8 | 0xff);
+    let mut rest = bytes;
+    while let Some(at) = rest.windows(2).position(is_marker) {
+        if rest[at + 1] == 0xd9 {
+            return true;
+        }
+        // A segment, with its length: thumbnails in it have ends of their own.
+        let length =
+            rest.get(at + 2..at + 4).map_or(usize::MAX, |length| usize::from(length[0]) << 8 | usize::from(length[1]));
+        rest = rest.get(at.saturating_add(2).saturating_add(length)..).unwrap_or_default();
+    }
+    false
+}

@@ -1,0 +1,137 @@
+//! Textures: samplers, and which image each one shows.
+
+use std::collections::{BTreeMap, HashMap};
+
+use gltf::json::Root;
+use gltf::json::texture::{MagFilter, MinFilter, Sampler as JsonSampler, Texture as JsonTexture, WrappingMode};
+use gltf::json::validation::Checked::{self, Invalid, Valid};
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::Fault;
+use super::images::{self, Sources};
+use super::material_extensions::object;
+use crate::scene::error::label;
+use crate::scene::notices::Notices;
+use crate::scene::{Filter, Sampler, Scene, Texture, Wrap};
+
+const WEBP: &str = "EXT_texture_webp";
+
+/// EXT_texture_webp as the JSON has it.
+#[derive(Deserialize)]
+struct Webp {
+    source: u64,
+}
+
+/// Reads the textures that the scene's materials use, with their images, and makes the materials name the scene's textures
+/// in place of the file's. Those without an image that can be read are left out.
+pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
+    let samplers = samplers(root)?;
+    let uses = scene.materials.iter_mut().flat_map(|material| &mut material.textures);
+    let uses: Vec<_> = uses.filter(|slot| slot.is_some()).collect();
+    // By the file's indices.
+    let mut textures: BTreeMap<usize, Option<usize>> = BTreeMap::new();
+    let mut images: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut known: HashMap<Texture, usize> = HashMap::new();
+    for texture in uses.iter().filter_map(|slot| slot.as_ref()) {
+        textures.insert(texture.texture, None);
+    }
+    for (&index, place) in &mut textures {
+        let texture = &root.textures[index];
+        let Some(image) = image(root, index, notices)? else { continue };
+        let next = images.len();
+        let image = *images.entry(image).or_insert(next);
+        let sampler = texture.sampler.map_or(Sampler::DEFAULT, |sampler| samplers[sampler.value()]);
+        let texture = Texture { image, sampler };
+        *place = Some(*known.entry(texture).or_insert_with(|| {
+            scene.textures.push(texture);
+            scene.textures.len() - 1
+        }));
+    }
+    for slot in uses {
+        *slot = slot.and_then(|mut used| {
+            used.texture = textures[&used.texture]?;
+            Some(used)
+        });
+    }
+    let mut files: Vec<(usize, usize)> = images.into_iter().map(|(file, index)| (index, file)).collect();
+    files.sort_unstable();
+    let files: Vec<usize> = files.into_iter().map(|(_, file)| file).collect();
+    scene.images = images::read(sources, &files, notices)?;
+    Ok(())
+}
+
+/// The image that a texture shows, if there is one that can be read.
+fn image(root: &Root, index: usize, notices: &mut Notices) -> Result<Option<usize>, Fault> {
+    let texture = &root.textures[index];
+    let place = || texture_label(root, index);
+    let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+    if let Some(webp) = others.and_then(|others| others.get(WEBP)) {
+        return webp_source(webp, root.images.len()).map(Some).map_err(|what| Fault::at(place(), what));
+    }
+    if has_source(texture) {
+        return Ok(Some(texture.source.value()));
+    }
+    match others.and_then(|others| others.keys().next()) {
+        Some(name) => notices.add("textures in formats that are not served are left out", || {
+            format!("{} of {}", super::cut(name), place())
+        }),
+        None => notices.add("textures without an image are left out", place),
+    }
+    Ok(None)
+}
+
+fn webp_source(webp: &Value, images: usize) -> Result<usize, String> {
+    let Webp { source } = object(WEBP, webp)?;
+    let found = usize::try_from(source).ok().filter(|&source| source < images);
+    found.ok_or_else(|| format!("{WEBP}: there is no image {source}; export the file again"))
+}
+
+/// Where the source is missing, an index that no file can have stands in its place.
+pub fn has_source(texture: &JsonTexture) -> bool {
+    texture.source.value() != u32::MAX as usize
+}
+
+pub fn texture_label(root: &Root, index: usize) -> String {
+    label("texture", index, root.textures.get(index).and_then(|texture| texture.name.as_deref()))
+}
+
+fn samplers(root: &Root) -> Result<Vec<Sampler>, Fault> {
+    let read = |(index, read): (usize, &JsonSampler)| {
+        sampler(read).map_err(|what| Fault::at(label("sampler", index, read.name.as_deref()), what))
+    };
+    root.samplers.iter().enumerate().map(read).collect()
+}
+
+fn sampler(sampler: &JsonSampler) -> Result<Sampler, String> {
+    let magnify = match known("magFilter", sampler.mag_filter)? {
+        Some(MagFilter::Nearest) => Filter::Nearest,
+        Some(MagFilter::Linear) | None => Sampler::DEFAULT.magnify,
+    };
+    let (minify, mipmaps) = match known("minFilter", sampler.min_filter)? {
+        None => (Sampler::DEFAULT.minify, Sampler::DEFAULT.mipmaps),
+        Some(MinFilter::Nearest) => (Filter::Nearest, None),
+        Some(MinFilter::Linear) => (Filter::Linear, None),
+        Some(MinFilter::NearestMipmapNearest) => (Filter::Nearest, Some(Filter::Nearest)),
+        Some(MinFilter::LinearMipmapNearest) => (Filter::Linear, Some(Filter::Nearest)),
+        Some(MinFilter::NearestMipmapLinear) => (Filter::Nearest, Some(Filter::Linear)),
+        Some(MinFilter::LinearMipmapLinear) => (Filter::Linear, Some(Filter::Linear)),
+    };
+    let wrap = |name, mode| {
+        Ok::<_, String>(match known(name, Some(mode))? {
+            Some(WrappingMode::ClampToEdge) => Wrap::Clamp,
+            Some(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+            Some(WrappingMode::Repeat) | None => Wrap::Repeat,
+        })
+    };
+    let wrap = [wrap("wrapS", sampler.wrap_s)?, wrap("wrapT", sampler.wrap_t)?];
+    Ok(Sampler { wrap, magnify, minify, mipmaps })
+}
+
+fn known<T>(name: &str, value: Option<Checked<T>>) -> Result<Option<T>, String> {
+    match value {
+        None => Ok(None),
+        Some(Valid(value)) => Ok(Some(value)),
+        Some(Invalid) => Err(format!("{name} is none of glTF's; export the file again")),
+    }
+}
