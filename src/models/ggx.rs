@@ -27,12 +27,12 @@ impl Schlick {
         Self { f0, f90 }
     }
 
-    /// The reflectance where `cosine` is that of the light to the facet (Schlick 1994, eq. 15).
+    /// The reflectance where `cosine` is that of the light to the facet (Schlick 1994).
     fn at(&self, cosine: f64) -> f64 {
         self.f0 + (self.f90 - self.f0) * (1.0 - cosine).max(0.0).powi(5)
     }
 
-    /// What light that facets reflect more than once adds to a lobe of albedo R: a factor 1 + f0 (1/R - 1) (Turquin 2019, eq. 16).
+    /// What light that facets reflect more than once adds to a lobe of albedo R: a factor 1 + f0 (1/R - 1) (Turquin 2019).
     fn gain(&self, albedo: f64) -> f64 {
         1.0 + self.f0 * (1.0 / albedo - 1.0)
     }
