@@ -4,8 +4,11 @@
 //! |---|---|---|
 //! | [`LtcSheen`] | the transformed cosine that renders in real time: a fit of the slab's lobe | sampled perfectly; reciprocal only nearly |
 //! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights to 1.7 R |
+//! | [`LtcGgx`] | the transformed cosine of the specular base | sampled perfectly; reciprocal only nearly |
+//! | [`Ggx`] | the specular base itself: GGX microfacets, multiple reflection made up for | weights to its albedo over R |
+//! | [`Lambert`] | the diffuse base | |
 //!
-//! Sheens have no colour: `C_sheen` multiplies what they give. Models stand in a frame whose z is the normal, with `wi` and `wo`
+//! Sheens have no colour: `C_sheen` multiplies what they give. The specular base is made for each colour channel. Models stand in a frame whose z is the normal, with `wi` and `wo`
 //! anywhere on the sphere: below the horizon there is nothing. One is made for each roughness, and shared by any number of threads.
 //!
 //! # Example
@@ -40,9 +43,13 @@
 //! ```
 
 mod elevations;
+mod ggx;
+mod lambert;
 mod ltc_sheen;
 mod slab_sheen;
 
+pub use ggx::{Ggx, LtcGgx, Schlick};
+pub use lambert::Lambert;
 pub use ltc_sheen::LtcSheen;
 pub use slab_sheen::{EMPTY_BELOW_ALPHA, SlabSheen};
 
@@ -57,7 +64,7 @@ pub trait Bsdf {
     /// 0 where one of them is below the horizon, or `wo` on it.
     fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64;
 
-    /// A direction from two uniform numbers in \[0, 1); none where nothing is scattered.
+    /// A direction from two uniform numbers in \[0, 1); none where nothing is scattered: then the path ends.
     fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample>;
 
     /// Density per steradian with which [`Self::sample`] finds `wo`; 0 where `wi` or `wo` is below the horizon, or `wo` on it.

@@ -8,7 +8,7 @@
 //! D(m)       = alpha^2 / (pi (1 - (1 - alpha^2) m_z^2)^2)                                  W eq. 33
 //! G2         = 1 / (1 + Lambda_i + Lambda_o) = 2 mu_i mu_o / (mu_o root_i + mu_i root_o)   H eq. 99
 //! f_r mu_o   = D G2 / (4 mu_i)               = D mu_o / (2 (mu_o root_i + mu_i root_o))    W eq. 20
-//! pdf(wo)    = D G1 / (4 mu_i)               = D / (2 (mu_i + root_i))                     V eq. 17, G1 = 1 / (1 + Lambda_i)
+//! pdf(wo)    = D G1 / (4 mu_i)               = D / (2 (mu_i + root_i))                     V, with G1 = 1 / (1 + Lambda_i)
 //! ```
 //!
 //! What facets reflect downwards is lost, and what they would reflect once more: that is the share 1 - R.

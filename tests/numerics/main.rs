@@ -6,6 +6,7 @@
 mod fit;
 mod hostile_table;
 mod medium;
+mod microfacet;
 mod models;
 mod ranges;
 mod shipped_table;

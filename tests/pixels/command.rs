@@ -2,7 +2,7 @@
 
 use velour::picture::{DisplayImage, LinearImage, ToneCurve};
 use velour::scene::{Settings, gltf};
-use velour::table::{LtcTable, SlabTable};
+use velour::table::{GgxTable, LtcTable, SlabTable};
 
 use super::compare::{changed, differences, linear, sheen_alone};
 use super::run::{Bench, small_stage};
@@ -125,7 +125,9 @@ fn the_adapter_is_chosen_by_a_part_of_its_name() {
     let name = info.lines().find_map(|line| line.strip_prefix("adapter: ")).expect("an adapter");
     let part = name.split([' ', '(']).next().unwrap().to_uppercase();
     bench.run(&format!("render scene.glb -o out.png --size 16x16 --adapter {part}"));
-    for checksum in [LtcTable::embedded().checksum(), SlabTable::embedded().checksum()] {
+    let checksums =
+        [LtcTable::embedded().checksum(), SlabTable::embedded().checksum(), GgxTable::embedded().checksum()];
+    for checksum in checksums {
         assert!(info.contains(&format!("{checksum:08x}")), "{info}");
     }
     assert!(info.contains(env!("CARGO_PKG_VERSION")), "{info}");

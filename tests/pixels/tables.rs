@@ -1,6 +1,6 @@
 //! `velour fit`: what it writes, what it checks, and what it refuses.
 
-use velour::table::{LtcTable, SLAB_SIDE, SlabTable};
+use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
 
 use super::run::Bench;
 
@@ -26,7 +26,9 @@ fn a_fitted_table_is_what_its_check_expects() {
     bench.refused(&mut bench.command(check), 1, "half-float steps off");
     std::fs::write(bench.path("new/tables/sheen_ltc.dds"), good).unwrap();
     bench.refused(&mut bench.command(&check.replace('4', "5")), 1, "another size");
-    bench.refused(&mut bench.command("fit --only slab --resolution 16"), 2, "leave it out");
+    for other in ["slab", "ggx"] {
+        bench.refused(&mut bench.command(&format!("fit --only {other} --resolution 16")), 2, "leave it out");
+    }
 }
 
 #[test]
@@ -45,6 +47,19 @@ fn the_slabs_table_is_checked() {
 }
 
 #[test]
+fn the_specular_bases_table_is_checked() {
+    let bench = Bench::new();
+    let shipped = GgxTable::embedded();
+    let [n, m] = shipped.size();
+    let mut cells: Vec<[f64; 5]> = (0..n * m).map(|at| shipped.cell(at / m, at % m)).collect();
+    bench.put("ggx_ltc.csv", shipped.to_csv(&[]));
+    cells[20 * m + 7][2] += 0.01;
+    bench.put("ggx_ltc.dds", GgxTable::new([n, m], cells).to_dds());
+    let check = &mut bench.command("fit --check --only ggx -o .");
+    bench.refused(check, 1, "ggx_ltc.dds: is not what the program makes");
+}
+
+#[test]
 fn what_cannot_be_read_or_written_is_said_before_the_work() {
     let bench = Bench::new();
     bench.refused(&mut bench.command("fit --check -o nowhere"), 2, "nowhere/sheen_ltc.csv: cannot be read");
@@ -56,5 +71,5 @@ fn what_cannot_be_read_or_written_is_said_before_the_work() {
     bench.put("sheen_slab.dds", "no texture");
     bench.refused(&mut bench.command("fit --check --only slab -o ."), 2, "sheen_slab.dds: no .dds texture");
     bench.refused(&mut bench.command("fit -o scene.glb"), 2, "scene.glb: the folder cannot be made");
-    bench.refused(&mut bench.command("fit --only ggx"), 2, "--only");
+    bench.refused(&mut bench.command("fit --only fuzz"), 2, "--only");
 }

@@ -3,6 +3,7 @@
 mod device;
 mod files;
 mod form_factor;
+mod ggx;
 mod named_cases;
 mod polygons;
 mod sampling;

@@ -1,0 +1,167 @@
+//! The specular base: microfacets themselves, and the transformed cosine of real-time rendering.
+
+use super::{Bsdf, Sample, check_uniforms, cosine};
+use crate::math::check_cosine;
+use crate::math::frame::AzimuthFrame;
+use crate::physics::microfacet::{self, Reflected};
+use crate::table::{GgxLobe, GgxTable, SpecularLtc, cell, node};
+use glam::DVec3;
+
+/// Nodes along sqrt(1 - mu) at which a [`Ggx`] knows its shares: linear between them, they are off by 1e-3 at most.
+const SHARES: usize = 65;
+
+/// Schlick's approximation of Fresnel's reflectance, of one colour channel: f0 head on, f90 at grazing angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schlick {
+    f0: f64,
+    f90: f64,
+}
+
+impl Schlick {
+    /// Nothing is taken from the light: a perfect mirror.
+    pub const MIRROR: Self = Self { f0: 1.0, f90: 1.0 };
+
+    /// From `f0` and `f90` in \[0, 1\].
+    pub fn new(f0: f64, f90: f64) -> Self {
+        assert!([f0, f90].iter().all(|f| (0.0..=1.0).contains(f)), "f0 and f90 are in [0, 1]: {f0}, {f90}");
+        Self { f0, f90 }
+    }
+
+    /// The reflectance where `cosine` is that of the light to the facet (Schlick 1994).
+    fn at(&self, cosine: f64) -> f64 {
+        self.f0 + (self.f90 - self.f0) * (1.0 - cosine).max(0.0).powi(5)
+    }
+
+    /// What light that facets reflect more than once adds to a lobe of albedo R: a factor 1 + f0 (1/R - 1) (Turquin 2019).
+    fn gain(&self, albedo: f64) -> f64 {
+        1.0 + self.f0 * (1.0 / albedo - 1.0)
+    }
+
+    /// The share of light that comes back from facets of albedo R and Fresnel share S: f0 (R - S) + f90 S, times the gain.
+    ///
+    /// At most R / R = 1, as S <= R; 1 for f0 = f90 = 1.
+    pub fn albedo(&self, albedo: f64, fresnel: f64) -> f64 {
+        (self.f0 * (albedo - fresnel) + self.f90 * fresnel) * self.gain(albedo)
+    }
+}
+
+/// GGX microfacets, height-correlated, multiple reflection made up for: [`microfacet`] has the formulas.
+///
+/// Reciprocal but for the gain, which is that of `wi`. Samples are mirrored at visible normals: those that would go below the
+/// horizon, a few in a hundred, are none, so that densities integrate to less than 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ggx {
+    facets: microfacet::Ggx,
+    schlick: Schlick,
+    /// At the nodes of sqrt(1 - mu).
+    shares: Vec<Reflected>,
+}
+
+impl Ggx {
+    /// Of the user's `roughness` in \[0, 1\]: takes some milliseconds.
+    pub fn new(roughness: f64, schlick: Schlick) -> Self {
+        check_roughness(roughness);
+        let facets = microfacet::Ggx::from_roughness(roughness);
+        let shares = (0..SHARES).map(|k| facets.reflected(1.0 - node(k, SHARES).powi(2))).collect();
+        Self { facets, schlick, shares }
+    }
+
+    fn shares(&self, mu: f64) -> Reflected {
+        let (below, t) = cell((1.0 - mu).sqrt(), SHARES);
+        let [low, high] = [self.shares[below], self.shares[below + 1]];
+        let between = |value: fn(Reflected) -> f64| (1.0 - t) * value(low) + t * value(high);
+        Reflected { albedo: between(|share| share.albedo), fresnel: between(|share| share.fresnel) }
+    }
+}
+
+impl Bsdf for Ggx {
+    fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64 {
+        let (mu_i, mu_o) = (cosine(wi), cosine(wo));
+        if mu_i < 0.0 || mu_o <= 0.0 {
+            return 0.0;
+        }
+        let reflectance = self.schlick.at((wi + wo).length() / 2.0);
+        self.facets.lobe(wi, wo) * reflectance * self.schlick.gain(self.shares(mu_i).albedo)
+    }
+
+    fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample> {
+        check_uniforms(uniforms);
+        if cosine(wi) < 0.0 {
+            return None;
+        }
+        let wo = self.facets.sample(wi, uniforms);
+        let pdf = self.facets.pdf(wi, wo);
+        (wo.z > 0.0 && pdf > 0.0).then(|| Sample { wo, weight: self.evaluate(wi, wo) / pdf, pdf })
+    }
+
+    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
+        if cosine(wi) < 0.0 || cosine(wo) <= 0.0 { 0.0 } else { self.facets.pdf(wi, wo) }
+    }
+
+    fn albedo(&self, mu: f64) -> f64 {
+        check_cosine(mu);
+        let Reflected { albedo, fresnel } = self.shares(mu);
+        self.schlick.albedo(albedo, fresnel)
+    }
+}
+
+/// The specular base as a transformed cosine, with the table's numbers: what the shaders integrate over polygons. Fresnel's reflectance
+/// is the lobe's mean. Samples have the lobe's density: their weight is the albedo.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LtcGgx {
+    table: GgxTable,
+    roughness: f64,
+    schlick: Schlick,
+}
+
+impl LtcGgx {
+    /// Of the user's `roughness` in \[0, 1\].
+    pub fn new(table: &GgxTable, roughness: f64, schlick: Schlick) -> Self {
+        check_roughness(roughness);
+        Self { table: table.clone(), roughness, schlick }
+    }
+
+    /// The lobe at a cosine, and the share that it sends back.
+    fn lobe(&self, mu: f64) -> (SpecularLtc, f64) {
+        let GgxLobe { ltc, albedo, fresnel } = self.table.lookup(self.roughness, mu);
+        (ltc, self.schlick.albedo(albedo, fresnel))
+    }
+
+    /// Albedo and density at `wo`; none where one direction is below the horizon.
+    fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(f64, f64)> {
+        let (mu_i, mu_o) = (cosine(wi), cosine(wo));
+        (mu_i >= 0.0 && mu_o > 0.0).then(|| {
+            let (ltc, albedo) = self.lobe(mu_i);
+            (albedo, ltc.density(AzimuthFrame::of(wi).local(wo)))
+        })
+    }
+}
+
+impl Bsdf for LtcGgx {
+    fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64 {
+        self.meeting(wi, wo).map_or(0.0, |(albedo, density)| albedo * density)
+    }
+
+    fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample> {
+        check_uniforms(uniforms);
+        let mu_i = cosine(wi);
+        (mu_i >= 0.0).then(|| {
+            let (ltc, weight) = self.lobe(mu_i);
+            let wo = ltc.sample(uniforms);
+            Sample { wo: AzimuthFrame::of(wi).outside(wo), weight, pdf: ltc.density(wo) }
+        })
+    }
+
+    fn pdf(&self, wi: DVec3, wo: DVec3) -> f64 {
+        self.meeting(wi, wo).map_or(0.0, |(_, density)| density)
+    }
+
+    fn albedo(&self, mu: f64) -> f64 {
+        check_cosine(mu);
+        self.lobe(mu).1
+    }
+}
+
+fn check_roughness(roughness: f64) {
+    assert!((0.0..=1.0).contains(&roughness), "roughness is in [0, 1]: {roughness}");
+}
