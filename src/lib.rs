@@ -9,8 +9,8 @@
 //! | module | what stands there | with feature |
 //! |---|---|---|
 //! | [`math`] | quadrature, sampling warps, frames: `f64`, no domain knowledge | |
-//! | [`table`] | the table of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
-//! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk | |
+//! | [`table`] | the tables of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
+//! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk; GGX microfacets | |
 //! | [`fit`] | lobe to LTC, r between the nodes, the error report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
@@ -36,7 +36,7 @@
 //!
 //! | symbol | name | range | source |
 //! |---|---|---|---|
-//! | `roughness` | the user's parameter | \[0, 1\] | glTF: sheenRoughnessFactor |
+//! | `roughness` | the user's parameter; of the specular base, `alpha = roughness^2` | \[0, 1\] | glTF: sheenRoughnessFactor, roughnessFactor |
 //! | `alpha` | roughness of the layer: small is fuzz, large is dust; `alpha = roughness` | \[0, 1\] | Z |
 //! | `sigma` | cross-section of the fibres seen along their axis, `alpha^2` | (0, 1] | S |
 //! | `C_sheen` | colour of the sheen, linear Rec. 709 | \[0, 1\] each | Z eq. 1 |
@@ -49,7 +49,8 @@
 //! | lobe | f_r(wi, wo) mu_o: reflected radiance times cosine per unit of flux from `wi` | | Z |
 //! | `R`, `r` | albedo: the share of light that the layer sends back up; `r` is the table's column, fitted for lookups between its nodes | \[0, 1\] | Z eq. 1 |
 //! | `a`, `b` | the table's columns of the inverse matrix | a >= 0 | Z section 2 |
-//! | `m_inv` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | | Z section 2, H |
+//! | `m_inv` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1); of the specular base (a,0,b), (0,c,0), (0,0,1) | | Z section 2, H |
+//! | `f0`, `f90` | reflectance of the specular base head on and at grazing angles | \[0, 1\] each | [`models::Schlick`] |
 //! | `D` | the clamped cosine on the unit sphere, `max(w_z, 0) / pi` | | H |
 //! | form factor | integral of a transformed cosine over a polygon; the whole hemisphere is 1 | \[0, 1\] | H section 3 |
 //! | radiance | of a light or a surface, in any linear unit | \[0, infinity) | |

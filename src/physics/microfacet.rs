@@ -122,9 +122,10 @@ impl Ggx {
     /// Nodes over the directions above the horizon for `wi` = (sqrt(1 - mu^2), 0, mu), fine where the lobe is, for any alpha.
     ///
     /// The half vector's angles theta, phi are walked. `wo` is above the horizon for theta < (atan2(s cos phi, mu) + pi / 2) / 2,
-    /// s = sqrt(1 - mu^2): the domain's edge is smooth in phi, but for a turn at pi / 2 of width mu, where nodes gather. With tan theta =
-    /// alpha tan chi the distribution is even in chi: D cos theta sin theta dtheta dphi = sin(2 chi) dchi dphi / 2 pi. Gauss nodes
-    /// in chi and on both sides of phi = pi / 2.
+    /// s = sqrt(1 - mu^2): the domain's edge is smooth in phi, but for a turn at pi / 2 of width mu. With tan theta = alpha tan chi the
+    /// distribution is even in chi: D cos theta sin theta dtheta dphi = sin(2 chi) dchi dphi / 2 pi. `counts` are those of Gauss nodes in
+    /// chi, gathered at the horizon, and in phi on either side of pi / 2, gathered there and in the plane of incidence, to which
+    /// grazing lobes are pressed.
     pub fn quadrature(&self, mu: f64, counts: [usize; 2]) -> Vec<Node> {
         check_cosine(mu);
         let (s, wi) = (sine(mu), DVec3::new(sine(mu), 0.0, mu));
@@ -132,8 +133,8 @@ impl Ggx {
         let mut nodes = Vec::with_capacity(2 * counts[0] * counts[1]);
         for (x, x_weight) in &unit[1] {
             for side in [-1.0, 1.0] {
-                let phi = FRAC_PI_2 * (1.0 + side * x * x);
-                let phi_weight = 2.0 * PI * x * x_weight;
+                let phi = FRAC_PI_2 * (1.0 + side * x * x * (3.0 - 2.0 * x));
+                let phi_weight = TAU * 3.0 * x * (1.0 - x) * x_weight;
                 let (sin_phi, cos_phi) = phi.sin_cos();
                 let edge = ((s * cos_phi).atan2(mu) + FRAC_PI_2) / 2.0;
                 let last = edge.tan().atan2(self.alpha);

@@ -1,4 +1,4 @@
-//! The slab of fibres, stated and solved.
+//! The slab of fibres, stated and solved; and the rough mirror below it: [`microfacet`].
 //!
 //! A flat layer of density 1 and thickness 1, of fibre-like SGGX microflakes whose axis is the normal, that absorb
 //! nothing; black below, nothing above. [`sggx`] is the medium, [`slab`] the layer with what is known of it in closed

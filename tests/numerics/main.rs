@@ -9,6 +9,7 @@ mod medium;
 mod microfacet;
 mod models;
 mod ranges;
+mod shipped_ggx;
 mod shipped_table;
 mod slab;
 mod slab_table;
