@@ -152,8 +152,8 @@ fn instances(scene: &Scene, settings: &Settings) -> (Vec<GpuInstance>, Vec<Batch
 }
 
 fn materials(scene: &Scene, settings: &Settings) -> Vec<GpuMaterial> {
-    let convert = |material: &Material| {
-        let sheen = settings.sheen_of(material);
+    let convert = |(index, material): (usize, &Material)| {
+        let sheen = settings.sheen_of(index, material);
         GpuMaterial {
             base_color: material.base_color,
             alpha: sheen.map_or(0.0, |look| look.roughness_map.alpha_from_roughness(look.sheen.roughness)),
@@ -161,7 +161,7 @@ fn materials(scene: &Scene, settings: &Settings) -> Vec<GpuMaterial> {
             padding: 0,
         }
     };
-    scene.materials.iter().map(convert).collect()
+    scene.materials.iter().enumerate().map(convert).collect()
 }
 
 /// The lights' polygons, and the vertices of their outlines: each outline's first vertex is marked by w = 1 and comes

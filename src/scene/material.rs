@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::TextureUse;
+use super::{Layering, TextureUse};
 
 /// How a surface scatters and emits: glTF's metallic-roughness base, a layer of fibres on it, and the textures of both.
 ///
@@ -95,12 +95,14 @@ pub struct Sheen {
     pub roughness: f32,
     /// How much of the surface the layer covers, in [0, 1]: 1 for KHR_materials_sheen, fuzzFactor for KHR_materials_fuzz.
     pub weight: f32,
+    /// How it lies on the base where the settings leave that open.
+    pub layering: Layering,
 }
 
 impl Sheen {
-    /// A layer that covers all of the surface.
+    /// A layer that covers all of the surface, as in KHR_materials_sheen.
     pub fn new(color: Vec3, roughness: f32) -> Self {
-        Self { color, roughness, weight: 1.0 }
+        Self { color, roughness, weight: 1.0, layering: Layering::Gltf }
     }
 }
 

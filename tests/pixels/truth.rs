@@ -57,7 +57,7 @@ impl<'a> Truth<'a> {
             self.stage.things.iter().enumerate().filter(|(_, thing)| self.settings.lights_visible || !thing.glows());
         let meetings = seen.filter_map(|(index, thing)| Some((index, nearest(thing, &ray)?)));
         let (thing, meeting) = meetings.min_by(|(_, left), (_, right)| left.depth.total_cmp(&right.depth))?;
-        let radiance = self.radiance(&self.stage.things[thing], &meeting, ray.view);
+        let radiance = self.radiance(thing, &meeting, ray.view);
         Some(Hit { thing, triangle: meeting.triangle, radiance })
     }
 
@@ -83,8 +83,9 @@ impl<'a> Truth<'a> {
     }
 
     /// The design's sum: lobes weighted, over all lights.
-    fn radiance(&self, thing: &Thing, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
-        let sheen = self.settings.sheen_of(&thing.material);
+    fn radiance(&self, index: usize, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
+        let thing = &self.stage.things[index];
+        let sheen = self.settings.sheen_of(index, &thing.material);
         let color = sheen.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3());
         let alpha = sheen.map_or(0.0, |look| f64::from(look.sheen.roughness));
         let [a, b, r] = self.table.lookup(alpha, normal.dot(view).max(0.0));

@@ -13,7 +13,7 @@ use super::material_extensions::{self as extensions, Fuzz, Ior, Sheen as SheenEx
 use super::texture_uses::{Uses, tex_coord_limit};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{AlphaMode, Material, Sheen, TextureSlot};
+use crate::scene::{AlphaMode, Layering, Material, Sheen, TextureSlot};
 
 /// In the order of `Scene::materials`: the file's own. What they name as textures are the file's, not yet the scene's.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
@@ -136,7 +136,7 @@ fn read_fuzz(fuzz: &Fuzz, uses: &mut Uses) -> Result<Sheen, String> {
     uses.add("fuzzTexture", TextureSlot::SheenWeight, &fuzz.fuzz_texture)?;
     uses.add("fuzzColorTexture", TextureSlot::SheenColor, &fuzz.fuzz_color_texture)?;
     uses.add("fuzzRoughnessTexture", TextureSlot::SheenRoughness, &fuzz.fuzz_roughness_texture)?;
-    Ok(Sheen { color: color.into(), roughness, weight })
+    Ok(Sheen { color: color.into(), roughness, weight, layering: Layering::OpenPbr })
 }
 
 fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
