@@ -12,6 +12,9 @@ mod fit;
 #[path = "main/output.rs"]
 mod output;
 #[cfg(feature = "gpu")]
+#[path = "main/overrides.rs"]
+mod overrides;
+#[cfg(feature = "gpu")]
 #[path = "main/render_args.rs"]
 mod render_args;
 

@@ -2,7 +2,7 @@
 // (the plain mean of a pixel's samples).
 
 struct DisplayUniforms {
-    // 0: clamped; 1: Khronos PBR Neutral
+    // 0: clamped; 1: Khronos PBR Neutral; 2: AgX
     tone_curve: u32,
     padding: u32,
     // The pixel of the output that shows the radiance's first.
@@ -38,10 +38,38 @@ fn display_neutral(radiance: vec3f) -> vec3f {
     return mix(color * (new_peak / peak), vec3f(new_peak), white);
 }
 
+// AgX (T. Sobotka 2022) as in Blender 4: see src/picture/tone.rs.
+fn display_agx(radiance: vec3f) -> vec3f {
+    let lowest = -12.47393;
+    let highest = 4.026069;
+    // Columns: linear Rec. 709 to Rec. 2020 with its primaries moved inwards.
+    let inset = mat3x3f(
+        0.544815, 0.140417, 0.088810,
+        0.373787, 0.754138, 0.178872,
+        0.081398, 0.105445, 0.732318);
+    let outset = mat3x3f(
+        1.12710060, -0.14132976, -0.14132976,
+        -0.11060664, 1.15782370, -0.11060664,
+        -0.01649394, -0.01649394, 1.25193640);
+    let rec709_from_rec2020 = mat3x3f(
+        1.660491, -0.124550, -0.018151,
+        -0.587641, 1.132899, -0.100579,
+        -0.072850, -0.008349, 1.118730);
+    let color = inset * clamp(radiance, vec3f(0.0), vec3f(1e6));
+    let stops = clamp(log2(max(color, vec3f(1e-6))), vec3f(lowest), vec3f(highest));
+    let x = (stops - lowest) / (highest - lowest);
+    let curve = (((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x - 0.00232;
+    let linear = pow(max(outset * curve, vec3f(0.0)), vec3f(2.2));
+    return clamp(rec709_from_rec2020 * linear, vec3f(0.0), vec3f(1.0));
+}
+
 // What an exposed radiance looks like: display-linear, in [0, 1].
 fn display_tone(exposed: vec3f) -> vec3f {
     if display_uniforms.tone_curve == 1u {
         return display_neutral(exposed);
+    }
+    if display_uniforms.tone_curve == 2u {
+        return display_agx(exposed);
     }
     return clamp(exposed, vec3f(0.0), vec3f(1.0));
 }

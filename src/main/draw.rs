@@ -11,7 +11,7 @@ use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
 
 use crate::render_args::{Render, Switch};
-use crate::{Failure, complain, say};
+use crate::{Failure, complain, overrides, say};
 
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
 #[cfg(feature = "viewer")]
@@ -59,7 +59,7 @@ fn draw(
     (scene, camera, table): (&Scene, &Camera, &LtcTable),
     timing: &mut Timing,
 ) -> Result<Vec<u8>, Failure> {
-    let settings = settings(arguments);
+    let settings = settings(arguments, scene)?;
     let samples = arguments.msaa;
     let encoded = match format {
         Format::Png => {
@@ -90,18 +90,21 @@ fn render_failure(error: RenderError) -> Failure {
     }
 }
 
-fn settings(arguments: &Render) -> Settings {
-    Settings {
+fn settings(arguments: &Render, scene: &Scene) -> Result<Settings, Failure> {
+    Ok(Settings {
         lobes: arguments.lobes,
         lights_visible: arguments.lights_visible == Switch::On,
         exposure: arguments.exposure,
+        ambient: arguments.ambient,
         overrides: Overrides {
             alpha: arguments.alpha,
-            sheen_color: arguments.sheen_color.map(Into::into),
-            ..Overrides::default()
+            sheen_color: arguments.sheen_color,
+            roughness_map: arguments.roughness_map,
+            sheen_model: arguments.sheen_model,
+            layering: arguments.layering,
         },
-        ..Settings::default()
-    }
+        material_overrides: overrides::resolve(&arguments.set, &scene.materials).map_err(Failure::input)?,
+    })
 }
 
 fn sheen_table(path: Option<&Path>) -> Result<LtcTable, Failure> {

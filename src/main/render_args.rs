@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use velour::scene::Lobes;
+use glam::Vec3;
+use velour::scene::{Layering, Lobes, RoughnessMap, SheenModel};
+
+use crate::overrides::{self, Assignment};
 
 #[derive(Args)]
 pub struct Render {
@@ -19,11 +22,23 @@ pub struct Render {
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
     /// Gives every material a sheen of this roughness, in [0,1]
-    #[arg(long, value_name = "A", value_parser = share, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = overrides::share, allow_negative_numbers = true)]
     pub alpha: Option<f32>,
     /// Gives every material a sheen of this colour, linear Rec. 709, each in [0,1]
-    #[arg(long, value_name = "R,G,B", value_parser = color, allow_hyphen_values = true)]
-    pub sheen_color: Option<[f32; 3]>,
+    #[arg(long, value_name = "R,G,B", value_parser = overrides::color, allow_hyphen_values = true)]
+    pub sheen_color: Option<Vec3>,
+    /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering; repeatable
+    #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
+    pub set: Vec<Assignment>,
+    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1] [default: gltf; openpbr for KHR_materials_fuzz]
+    #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none", value_parser = overrides::layering)]
+    pub layering: Option<Layering>,
+    /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]
+    #[arg(long, value_name = "identity|square|sqrt", value_parser = overrides::roughness_map)]
+    pub roughness_map: Option<RoughnessMap>,
+    /// The sheen's lobe: ltc, the fitted transformed cosine [default: ltc]
+    #[arg(long, value_name = "ltc", value_parser = overrides::sheen_model)]
+    pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds
     #[arg(long, value_name = "FILE")]
     pub sheen_table: Option<PathBuf>,
@@ -33,10 +48,13 @@ pub struct Render {
     /// Emitters that light the scene are drawn
     #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
     pub lights_visible: Switch,
+    /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0
+    #[arg(long, default_value = "0,0,0", value_name = "R,G,B", value_parser = radiance, allow_hyphen_values = true)]
+    pub ambient: Vec3,
     /// Exposure value of a .png: radiance is multiplied by 2^EV
     #[arg(long, default_value_t = 0.0, value_name = "EV", value_parser = exposure, allow_negative_numbers = true)]
     pub exposure: f32,
-    /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral
+    /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral, agx is Blender's AgX
     #[arg(long, default_value = "neutral", value_enum, value_name = "NAME")]
     pub tonemap: Tonemap,
     /// Samples a pixel; with 1 each pixel is the value at its centre
@@ -60,6 +78,7 @@ pub enum Switch {
 pub enum Tonemap {
     None,
     Neutral,
+    Agx,
 }
 
 impl From<Tonemap> for velour::picture::ToneCurve {
@@ -67,6 +86,7 @@ impl From<Tonemap> for velour::picture::ToneCurve {
         match tonemap {
             Tonemap::None => Self::None,
             Tonemap::Neutral => Self::Neutral,
+            Tonemap::Agx => Self::Agx,
         }
     }
 }
@@ -77,24 +97,14 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     sides.ok_or_else(|| "give two whole numbers of at least 1, say 1280x720".to_owned())
 }
 
-fn share(text: &str) -> Result<f32, String> {
-    number(text).filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| "give a number in [0,1]".to_owned())
-}
-
-fn color(text: &str) -> Result<[f32; 3], String> {
-    let channels: Option<Vec<f32>> = text.split(',').map(|channel| share(channel.trim()).ok()).collect();
-    channels
-        .and_then(|channels| channels.try_into().ok())
-        .ok_or_else(|| "give three numbers in [0,1], say 0.8,0.1,0.1".to_owned())
+fn radiance(text: &str) -> Result<Vec3, String> {
+    let wrong = || "give three finite numbers from 0 up, say 0.1,0.1,0.2".to_owned();
+    overrides::triple(text).filter(|radiance| radiance.cmpge(Vec3::ZERO).all()).ok_or_else(wrong)
 }
 
 /// Past 100 stops either way a float has nothing left to show.
 fn exposure(text: &str) -> Result<f32, String> {
-    number(text).filter(|value| value.abs() <= 100.0).ok_or_else(|| "give a number in [-100,100]".to_owned())
-}
-
-fn number(text: &str) -> Option<f32> {
-    text.parse().ok().filter(|value: &f32| value.is_finite())
+    overrides::number(text).filter(|value| value.abs() <= 100.0).ok_or_else(|| "give a number in [-100,100]".to_owned())
 }
 
 fn samples(text: &str) -> Result<u32, String> {
@@ -126,8 +136,7 @@ mod tests {
     #[test]
     fn values_in_range_are_taken() {
         assert_eq!(size("640x360"), Ok([640, 360]));
-        assert_eq!(share("0"), Ok(0.0));
-        assert_eq!(color("1, 0.5,0"), Ok([1.0, 0.5, 0.0]));
+        assert_eq!(radiance("0, 0.5,30"), Ok(Vec3::new(0.0, 0.5, 30.0)));
         assert_eq!(exposure("-2.5"), Ok(-2.5));
         assert_eq!(lobes("sheen"), Ok(Lobes { sheen: true, diffuse: false, specular: false, emission: false }));
     }
@@ -137,12 +146,8 @@ mod tests {
         for text in ["", "0x1", "1x0", "1x", "x", "1x2x3", "-1x1", "99999999999x1", "1.5x2"] {
             assert!(size(text).is_err(), "{text}");
         }
-        for text in ["", "-0.1", "1.1", "nan", "inf", "word", "1e40"] {
-            assert!(share(text).is_err(), "{text}");
-            assert!(color(&format!("{text},0,0")).is_err(), "{text}");
-        }
-        for text in ["1,1", "1,1,1,1", ",,"] {
-            assert!(color(text).is_err(), "{text}");
+        for text in ["", "1,1", "1,1,1,1", ",,", "1,1,-0.1", "nan,0,0", "1,inf,0", "1e40,0,0"] {
+            assert!(radiance(text).is_err(), "{text}");
         }
         for text in ["nan", "inf", "101", "x"] {
             assert!(exposure(text).is_err(), "{text}");

@@ -6,6 +6,8 @@ pub enum ToneCurve {
     /// Khronos PBR Neutral: base colours under neutral light come out as they are, highlights are compressed.
     #[default]
     Neutral,
+    /// AgX (T. Sobotka 2022) as in Blender 4: contrast as of film, bright colours go to white.
+    Agx,
 }
 
 impl ToneCurve {
@@ -14,6 +16,7 @@ impl ToneCurve {
         match self {
             Self::None => color.map(|channel| channel.clamp(0.0, 1.0)),
             Self::Neutral => neutral(color),
+            Self::Agx => agx(color),
         }
     }
 }
@@ -37,6 +40,40 @@ fn neutral(color: [f32; 3]) -> [f32; 3] {
     let new_peak = 1.0 - room * room / (peak + room - START_COMPRESSION);
     let white = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
     color.map(|channel| channel * (new_peak / peak) * (1.0 - white) + new_peak * white)
+}
+
+/// Rows of the matrices of AgX. The first takes linear Rec. 709 to Rec. 2020 (ITU-R BT.2087) and moves the primaries inwards, so
+/// that bright colours meet white; the second moves them out again, in the picture's encoding; the third takes linear Rec. 2020
+/// back. Insets and outsets are those of Blender 4's OCIO configuration (as in Filament's ToneMapper and three.js).
+const AGX_INSET: [[f32; 3]; 3] =
+    [[0.544_815, 0.373_787, 0.081_398], [0.140_417, 0.754_138, 0.105_445], [0.088_810, 0.178_872, 0.732_318]];
+const AGX_OUTSET: [[f32; 3]; 3] = [
+    [1.127_100_6, -0.110_606_64, -0.016_493_94],
+    [-0.141_329_76, 1.157_823_7, -0.016_493_94],
+    [-0.141_329_76, -0.110_606_64, 1.251_936_4],
+];
+const REC709_FROM_REC2020: [[f32; 3]; 3] =
+    [[1.660_491, -0.587_641, -0.072_850], [-0.124_550, 1.132_899, -0.008_349], [-0.018_151, -0.100_579, 1.118_730]];
+
+/// AgX's default look: log2 of the radiance from 12.47393 stops below 1 to 4.026069 above, a sigmoid curve (B. Wrensch's fit of
+/// sixth degree, whose mean squared error is 3.7e-6), which gives a picture encoded by a power of 2.2.
+fn agx(color: [f32; 3]) -> [f32; 3] {
+    const LOWEST: f32 = -12.473_93;
+    const HIGHEST: f32 = 4.026_069;
+    let color = times(&AGX_INSET, color.map(|channel| channel.clamp(0.0, 1e6)));
+    let curve = |channel: f32| {
+        // Zero has no logarithm; what is less than 2^-20 is at the lowest end.
+        let x = (channel.max(1e-6).log2().clamp(LOWEST, HIGHEST) - LOWEST) / (HIGHEST - LOWEST);
+        let polynomial = [-0.00232, 0.1191, 0.4298, -6.868, 31.96, -40.14, 15.5];
+        polynomial.into_iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+    };
+    let encoded = times(&AGX_OUTSET, color.map(curve));
+    times(&REC709_FROM_REC2020, encoded.map(|channel| channel.max(0.0).powf(2.2)))
+        .map(|channel| channel.clamp(0.0, 1.0))
+}
+
+fn times(rows: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
+    rows.map(|row| row[0] * x + row[1] * y + row[2] * z)
 }
 
 /// The sRGB transfer function (IEC 61966-2-1) on [0, 1]; what lies outside is clamped.
@@ -72,6 +109,36 @@ mod tests {
             assert!(neutral([extreme, 0.5, 0.0]).iter().all(|channel| (0.0..=1.0).contains(channel)));
         }
         assert!(neutral([f32::INFINITY; 3]).iter().all(|channel| *channel > 0.99));
+    }
+
+    #[test]
+    fn agx_is_monotone_bounded_and_keeps_grey() {
+        let mut last = 0.0;
+        for step in 0..=200_000 {
+            let x = 2f32.powf(step as f32 * 1e-4 - 14.0);
+            let shown = agx([x; 3]);
+            // The matrices' rows sum to 1 within 2e-6, which the curve's steepest slope makes 1e-5.
+            assert!(shown.iter().all(|channel| (channel - shown[0]).abs() < 2e-5), "{x}: {shown:?}");
+            assert!(shown[0] > last - 1e-6 && shown[0] <= 1.0, "{x}: {last} {shown:?}");
+            last = shown[0];
+        }
+        for extreme in [0.0, 1e-30, 1e6, 1e30, f32::INFINITY] {
+            for color in [[extreme, 0.5, 0.0], [0.0, 0.0, extreme], [extreme; 3]] {
+                assert!(agx(color).iter().all(|channel| (0.0..=1.0).contains(channel)), "{color:?}");
+            }
+        }
+        assert_eq!(agx([0.0; 3]), [0.0; 3]);
+        assert!(agx([f32::INFINITY; 3]).iter().all(|channel| *channel > 0.99));
+    }
+
+    #[test]
+    fn agx_at_known_points() {
+        // The curve's pivot: 0.18, ten stops above the lowest end, is the middle of the screen's scale. A bright saturated
+        // red goes towards white.
+        let [grey, ..] = agx([0.18; 3]).map(srgb_from_linear);
+        assert!((grey - 0.5).abs() < 2e-3, "{grey}");
+        let [red, green, blue] = agx([50.0, 0.0, 0.0]);
+        assert!(red > 0.9 && green > 0.3 && blue > 0.3, "{red} {green} {blue}");
     }
 
     #[test]

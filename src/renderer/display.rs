@@ -82,8 +82,9 @@ impl DisplayPass {
         showing: Showing,
     ) {
         let tone_curve = match showing {
-            Showing::Shown { tone, .. } => u32::from(tone == ToneCurve::Neutral),
-            Showing::Measured => 0,
+            Showing::Shown { tone: ToneCurve::None, .. } | Showing::Measured => 0,
+            Showing::Shown { tone: ToneCurve::Neutral, .. } => 1,
+            Showing::Shown { tone: ToneCurve::Agx, .. } => 2,
         };
         let uniforms = Uniforms { tone_curve, padding: 0, origin: [place.x, place.y] };
         queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));

@@ -45,7 +45,7 @@ pub(super) struct Attributes {
 impl Variant {
     fn new(scene: &Scene, settings: &Settings, instance: &Instance) -> Self {
         let mesh = &scene.meshes[instance.mesh];
-        let look = Look::new(&scene.materials[mesh.material], settings);
+        let look = Look::new(mesh.material, &scene.materials[mesh.material], settings);
         let attributes = match look.textures != 0 || !mesh.colors.is_empty() {
             false => Attributes::default(),
             true => Attributes {

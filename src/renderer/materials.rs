@@ -43,8 +43,8 @@ pub(super) struct Look {
 }
 
 impl Look {
-    pub fn new(material: &Material, settings: &Settings) -> Self {
-        let sheen = settings.sheen_of(material);
+    pub fn new(index: usize, material: &Material, settings: &Settings) -> Self {
+        let sheen = settings.sheen_of(index, material);
         let metallic = material.metallic > 0.0;
         let counts = |slot: TextureSlot| {
             material.texture(slot).is_some()
@@ -63,7 +63,7 @@ impl Look {
             sheen: sheen.is_some() && !material.unlit,
             specular: (metallic || material.dielectric_f0() != Vec3::ZERO || material.specular > 0.0)
                 && !material.unlit,
-            reciprocal: sheen.is_some() && settings.layering_of(material) == Layering::Reciprocal,
+            reciprocal: sheen.is_some() && settings.layering_of(index) == Layering::Reciprocal,
             unlit: material.unlit,
             mask: matches!(material.alpha_mode, AlphaMode::Mask { .. }),
             blend: material.alpha_mode == AlphaMode::Blend,
@@ -73,10 +73,10 @@ impl Look {
     }
 }
 
-pub(super) fn factors(material: &Material, settings: &Settings) -> GpuMaterial {
-    let look = settings.sheen_of(material);
+pub(super) fn factors(index: usize, material: &Material, settings: &Settings) -> GpuMaterial {
+    let look = settings.sheen_of(index, material);
     let sheen = look.map(|look| look.sheen);
-    let (layering, manual) = match settings.layering_of(material) {
+    let (layering, manual) = match settings.layering_of(index) {
         Layering::Gltf => (0, 1.0),
         Layering::OpenPbr => (1, 1.0),
         Layering::Reciprocal => (2, 1.0),

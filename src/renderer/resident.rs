@@ -115,7 +115,8 @@ impl Contents {
     fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
         let (polygons, light_vertices) = polygons(&scene.lights);
         let punctual = punctual(&scene.punctual_lights);
-        let materials: Vec<_> = scene.materials.iter().map(|material| factors(material, settings)).collect();
+        let materials: Vec<_> =
+            scene.materials.iter().enumerate().map(|(index, material)| factors(index, material, settings)).collect();
         Self {
             draws: Draws::new(scene, settings, mesh_bounds),
             materials: bytes(&materials),

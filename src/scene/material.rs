@@ -98,7 +98,7 @@ pub struct Sheen {
 }
 
 impl Sheen {
-    /// A layer that covers all of the surface.
+    /// A layer that covers all of the surface, as in KHR_materials_sheen.
     pub fn new(color: Vec3, roughness: f32) -> Self {
         Self { color, roughness, weight: 1.0 }
     }

@@ -4,6 +4,7 @@
 
 mod bounds;
 mod camera;
+mod emitter;
 mod error;
 mod framing;
 pub mod gltf;
@@ -74,9 +75,12 @@ impl Scene {
         self.bounds_of(|_| true)
     }
 
-    /// A box around what is lit: all that is drawn and does not glow, or all where everything glows.
+    /// A box around what is lit: all that is drawn and does not glow, or all where everything glows. Of what is textured
+    /// little may glow, so that is no lamp.
     pub fn subject(&self) -> Bounds {
-        let lit = self.bounds_of(|material| material.emission == Vec3::ZERO);
+        let is_lamp =
+            |material: &Material| material.emission != Vec3::ZERO && material.texture(TextureSlot::Emission).is_none();
+        let lit = self.bounds_of(|material| !is_lamp(material));
         if lit == Bounds::EMPTY { self.bounds() } else { lit }
     }
 

@@ -16,8 +16,8 @@ pub struct Settings {
     pub ambient: Vec3,
     /// What is changed in every material.
     pub overrides: Overrides,
-    /// What is changed in the materials of these names; goes before `overrides`.
-    pub material_overrides: BTreeMap<String, Overrides>,
+    /// What is changed in these materials (indices into `Scene::materials`); goes before `overrides`.
+    pub material_overrides: BTreeMap<usize, Overrides>,
 }
 
 impl Default for Settings {
@@ -100,7 +100,7 @@ pub enum Layering {
     /// 1 - max3(C) r(view): KHR_materials_sheen.
     #[default]
     Gltf,
-    /// 1 - F r(view) with F the layer's weight, whatever its colour: OpenPBR.
+    /// 1 - F r(view) with F the layer's weight, whatever its colour: OpenPBR, KHR_materials_fuzz.
     OpenPbr,
     /// The lesser of 1 - max3(C) r on the view's and on the light's side (Conty Estevez and Kulla 2017).
     Reciprocal,
@@ -122,18 +122,22 @@ pub struct SheenLook {
 }
 
 impl Settings {
-    /// What is changed in `material`.
-    pub fn overrides_of(&self, material: &Material) -> Overrides {
-        self.material_overrides.get(&material.name).copied().unwrap_or_default().or(self.overrides)
+    /// What is changed in the material of this index.
+    pub fn overrides_of(&self, index: usize) -> Overrides {
+        self.material_overrides.get(&index).copied().unwrap_or_default().or(self.overrides)
     }
 
-    /// The sheen that `material` is drawn with. What `alpha` and `sheen_color` leave open is the material's own; a material
-    /// without a sheen, or with a black one, is given a white one of roughness 0.5 where either is set.
-    pub fn sheen_of(&self, material: &Material) -> Option<SheenLook> {
-        let overrides = self.overrides_of(material);
-        let own = material.sheen.filter(|sheen| sheen.color != Vec3::ZERO && sheen.weight > 0.0);
+    /// The sheen that `material`, of this index, is drawn with. What `alpha` and `sheen_color` leave open is the material's
+    /// own; a material without a sheen, or with a black one, is given a white one of roughness 0.5 where either is set.
+    pub fn sheen_of(&self, index: usize, material: &Material) -> Option<SheenLook> {
+        let overrides = self.overrides_of(index);
+        let covers = material.sheen.filter(|sheen| sheen.weight > 0.0);
+        let own = covers.filter(|sheen| sheen.color != Vec3::ZERO);
         let given = overrides.alpha.is_some() || overrides.sheen_color.is_some();
-        let base = own.or_else(|| given.then(|| Sheen::new(Vec3::ONE, 0.5)))?;
+        // Black fibres scatter nothing; where their colour does not count they still hide the base.
+        let hiding = covers.filter(|_| self.layering_of(index) == Layering::OpenPbr);
+        let base = own.or_else(|| given.then(|| Sheen::new(Vec3::ONE, 0.5))).or(hiding)?;
+        let own = own.or(hiding.filter(|_| !given));
         Some(SheenLook {
             sheen: Sheen {
                 color: overrides.sheen_color.unwrap_or(base.color),
@@ -147,9 +151,9 @@ impl Settings {
         })
     }
 
-    /// How `material`'s sheen and base are put together.
-    pub fn layering_of(&self, material: &Material) -> Layering {
-        self.overrides_of(material).layering.unwrap_or_default()
+    /// How the sheen and the base of the material of this index are put together.
+    pub fn layering_of(&self, index: usize) -> Layering {
+        self.overrides_of(index).layering.unwrap_or_default()
     }
 }
 

@@ -11,4 +11,5 @@ mod run;
 mod shown;
 mod stage;
 mod tables;
+mod textures;
 mod truth;

@@ -33,7 +33,7 @@ fn greatest(left: &DisplayImage, right: &DisplayImage) -> u8 {
 fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
     let scene = stage().scene();
     let radiance = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
-    for tone in [ToneCurve::None, ToneCurve::Neutral] {
+    for tone in [ToneCurve::None, ToneCurve::Neutral, ToneCurve::Agx] {
         for exposure in [-2.0, 0.0, 1.3, 6.0] {
             let settings = Settings { exposure, ..Settings::default() };
             let picture = shown(&scene, 1, &settings, tone, SIZE);

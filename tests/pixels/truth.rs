@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use velour::reference::polygon::form_factor;
-use velour::scene::{Layering, Lobes, Material, Projection, PunctualKind, PunctualLight, Settings};
+use velour::scene::{Layering, Lobes, Projection, PunctualKind, PunctualLight, Settings};
 use velour::table::{GgxTable, LtcTable};
 
 use super::stage::{Stage, Thing};
@@ -67,7 +67,7 @@ impl<'a> Truth<'a> {
             self.stage.things.iter().enumerate().filter(|(_, thing)| self.settings.lights_visible || !thing.glows());
         let meetings = seen.filter_map(|(index, thing)| Some((index, nearest(thing, &ray)?)));
         let (thing, meeting) = meetings.min_by(|(_, left), (_, right)| left.depth.total_cmp(&right.depth))?;
-        let radiance = self.radiance(&self.stage.things[thing], &meeting, ray.view);
+        let radiance = self.radiance(thing, &meeting, ray.view);
         Some(Hit { thing, triangle: meeting.triangle, radiance })
     }
 
@@ -93,8 +93,9 @@ impl<'a> Truth<'a> {
     }
 
     /// The design's sum: lobes weighted, over all lights.
-    fn radiance(&self, thing: &Thing, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
-        let look = Look::new(self, &thing.material, normal.dot(view).max(0.0));
+    fn radiance(&self, index: usize, &Meeting { p_world, normal, .. }: &Meeting, view: DVec3) -> DVec3 {
+        let thing = &self.stage.things[index];
+        let look = Look::new(self, index, normal.dot(view).max(0.0));
         let lobes = self.settings.lobes;
         let local_from_world = frame(normal, view).transpose();
         let mut sum = if lobes.emission { thing.material.emission.as_dvec3() } else { DVec3::ZERO };
@@ -139,8 +140,9 @@ struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    fn new(truth: &Truth<'a>, material: &Material, mu: f64) -> Self {
-        let look = truth.settings.sheen_of(material);
+    fn new(truth: &Truth<'a>, thing: usize, mu: f64) -> Self {
+        let material = &truth.stage.things[thing].material;
+        let look = truth.settings.sheen_of(thing, material);
         let color = look.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3() * f64::from(look.sheen.weight));
         let alpha =
             look.map_or(0.0, |look| f64::from(look.sheen.roughness).powf(f64::from(look.roughness_map.exponent())));
@@ -156,7 +158,7 @@ impl<'a> Look<'a> {
         let base_color = material.base_color.as_dvec3();
         let normal = ((f64::from(material.ior) - 1.0) / (f64::from(material.ior) + 1.0)).powi(2);
         let f0 = (normal * material.specular_color.as_dvec3()).min(DVec3::ONE) * specular;
-        let layering = truth.settings.layering_of(material);
+        let layering = truth.settings.layering_of(thing);
         let base_weight = match layering {
             Layering::Gltf | Layering::Reciprocal => 1.0 - color.max_element() * r,
             Layering::OpenPbr => 1.0 - look.map_or(0.0, |look| f64::from(look.sheen.weight)) * r,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 
-use crate::scene::{Material, Overrides, Settings, Sheen};
+use crate::scene::{Layering, Material, Overrides, Settings, Sheen};
 
 #[test]
 fn settings_give_every_material_a_sheen() {
@@ -25,13 +25,36 @@ fn settings_give_every_material_a_sheen() {
     ];
     for (alpha, sheen_color, own, expected) in cases {
         let overrides = Overrides { alpha, sheen_color, ..Overrides::default() };
-        let named = BTreeMap::from([("felt".to_owned(), overrides)]);
+        let own_overrides = BTreeMap::from([(3, overrides)]);
         for settings in [
             Settings { overrides, ..Settings::default() },
-            Settings { material_overrides: named, ..Settings::default() },
+            Settings { material_overrides: own_overrides, ..Settings::default() },
         ] {
-            let found = settings.sheen_of(&material(own)).map(|look| look.sheen);
+            let found = settings.sheen_of(3, &material(own)).map(|look| look.sheen);
             assert_eq!(found, expected, "{alpha:?} {sheen_color:?} {own:?}");
         }
     }
+}
+
+#[test]
+fn a_materials_own_overrides_go_before_those_of_all() {
+    let all = Overrides { alpha: Some(0.1), layering: Some(Layering::None), ..Overrides::default() };
+    let one = Overrides { alpha: Some(0.9), ..Overrides::default() };
+    let settings = Settings { overrides: all, material_overrides: BTreeMap::from([(1, one)]), ..Settings::default() };
+    let material = Material::matte("felt", Vec3::ONE);
+    for (index, alpha) in [(0, 0.1), (1, 0.9), (2, 0.1)] {
+        assert_eq!(settings.sheen_of(index, &material).unwrap().sheen.roughness, alpha);
+        assert_eq!(settings.layering_of(index), Layering::None);
+    }
+}
+
+#[test]
+fn black_fibres_count_where_they_hide_the_base() {
+    let fuzz = Sheen { weight: 0.5, ..Sheen::new(Vec3::ZERO, 0.3) };
+    let material = |sheen| Material { sheen: Some(sheen), ..Material::matte("", Vec3::ONE) };
+    assert!(Settings::default().sheen_of(0, &material(fuzz)).is_none());
+    let overrides = Overrides { layering: Some(Layering::OpenPbr), ..Overrides::default() };
+    let settings = Settings { overrides, ..Settings::default() };
+    assert_eq!(settings.sheen_of(0, &material(fuzz)).unwrap().sheen, fuzz);
+    assert!(settings.sheen_of(0, &material(Sheen { weight: 0.0, ..fuzz })).is_none());
 }

@@ -132,3 +132,14 @@ fn textures_that_name_what_is_not_there() {
         assert!(error.contains(what) && error.lines().count() == 1, "{error}");
     }
 }
+
+#[test]
+fn an_emissive_texture_dims_the_light() {
+    let mut file = with_textures(&[json!({ "source": 0 })]);
+    file.json["materials"][1]["emissiveTexture"] = json!({ "index": 0 });
+    let scene = file.read();
+    // The one texel is 0, 0, 100, sRGB.
+    let radiance = scene.lights[0].radiance;
+    assert!(radiance.abs_diff_eq(glam::Vec3::new(0.0, 0.0, 4.0 * 0.127_438), 1e-5), "{radiance}");
+    assert_eq!(scene.materials[1].emission, glam::Vec3::splat(4.0));
+}

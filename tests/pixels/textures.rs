@@ -1,0 +1,255 @@
+//! Textures, vertex colours, opacity: what counts where, and which way up.
+
+use glam::{Affine2, Vec2, Vec3, Vec4};
+use velour::picture::LinearImage;
+use velour::scene::{
+    AlphaMode, Image, Lobes, Material, Sampler, Scene, Settings, Sheen, Texture, TextureSlot, TextureUse,
+};
+use velour::table::LtcTable;
+
+use super::compare::{SIZE, linear};
+use super::stage::{Stage, Thing, facing, glow, looking, plain};
+
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
+const ORIGIN: [f32; 3] = [0.0; 3];
+
+/// A scene whose first thing is a square floor with texture coordinates (u to the right, v towards the viewer), and a window.
+fn floor(material: Material) -> Scene {
+    let floor = Thing::rectangle([1.5, 1.5], material).placed(facing(ORIGIN, UP));
+    let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
+    let mut scene = Stage::new(vec![floor, window], looking([0.0, 1.4, 2.2], ORIGIN)).scene();
+    let mesh = &mut scene.meshes[0];
+    // The place turns its x to the left, and its y towards the viewer.
+    let uv = |position: &Vec3| Vec2::new(-position.x, position.y) / 3.0 + 0.5;
+    mesh.tex_coords[0] = mesh.positions.iter().map(uv).collect();
+    mesh.tex_coords[1] = mesh.tex_coords[0].iter().map(|uv| Vec2::new(uv.y, uv.x)).collect();
+    mesh.tangents = vec![Vec4::new(1.0, 0.0, 0.0, 1.0); mesh.positions.len()];
+    scene
+}
+
+fn textured(scene: &mut Scene, slot: TextureSlot, size: [u32; 2], texels: Vec<[u8; 4]>) {
+    let [width, height] = size;
+    scene.images.push(Image { name: "test".into(), width, height, texels });
+    scene.textures.push(Texture { image: scene.images.len() - 1, sampler: Sampler::DEFAULT });
+    let texture = scene.textures.len() - 1;
+    let uv_from_tex_coord = Affine2::IDENTITY;
+    scene.materials[0].textures[slot as usize] = Some(TextureUse { texture, tex_coord: 0, uv_from_tex_coord });
+}
+
+fn picture(scene: &Scene) -> LinearImage {
+    let settings = Settings { lights_visible: false, ..Settings::default() };
+    linear(scene, &LtcTable::embedded(), &settings, SIZE)
+}
+
+/// The greatest difference over all pixels, as a share of the brightest.
+fn difference(left: &LinearImage, right: &LinearImage) -> f32 {
+    let channels = |picture: &LinearImage| picture.pixels.iter().flatten().copied().collect::<Vec<f32>>();
+    let greatest = channels(left).into_iter().fold(0.0, f32::max);
+    assert!(greatest > 1e-3 && channels(left).iter().all(|channel| channel.is_finite()));
+    channels(left).iter().zip(channels(right)).map(|(left, right)| (left - right).abs()).fold(0.0, f32::max) / greatest
+}
+
+fn rich() -> Material {
+    Material {
+        base_color: Vec3::new(0.8, 0.6, 0.9),
+        metallic: 0.4,
+        roughness: 0.6,
+        specular: 0.7,
+        specular_color: Vec3::new(1.2, 0.8, 1.0),
+        sheen: Some(Sheen { color: Vec3::new(0.9, 0.5, 0.3), roughness: 0.5, weight: 0.8 }),
+        emission: Vec3::ZERO,
+        ..plain()
+    }
+}
+
+/// Linear light of an sRGB byte, by IEC 61966-2-1.
+fn linear_of(byte: u8) -> f32 {
+    let encoded = f32::from(byte) / 255.0;
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[test]
+fn one_texel_is_a_factor_in_the_right_channel_and_encoding() {
+    let texel = [180, 120, 60, 200];
+    let color = Vec3::new(linear_of(180), linear_of(120), linear_of(60));
+    let plain_share = |channel: usize| f32::from(texel[channel]) / 255.0;
+    let base = rich();
+    let sheen = base.sheen.unwrap();
+    let with_sheen = |sheen| Material { sheen: Some(sheen), ..base.clone() };
+    for (slot, expected) in [
+        (TextureSlot::BaseColor, Material { base_color: base.base_color * color, ..base.clone() }),
+        (
+            TextureSlot::MetallicRoughness,
+            Material {
+                roughness: base.roughness * plain_share(1),
+                metallic: base.metallic * plain_share(2),
+                ..base.clone()
+            },
+        ),
+        (TextureSlot::Occlusion, base.clone()),
+        (TextureSlot::Specular, Material { specular: base.specular * plain_share(3), ..base.clone() }),
+        (TextureSlot::SpecularColor, Material { specular_color: base.specular_color * color, ..base.clone() }),
+        (TextureSlot::SheenColor, with_sheen(Sheen { color: sheen.color * color, ..sheen })),
+        (TextureSlot::SheenRoughness, with_sheen(Sheen { roughness: sheen.roughness * plain_share(3), ..sheen })),
+        (TextureSlot::SheenWeight, with_sheen(Sheen { weight: sheen.weight * plain_share(0), ..sheen })),
+    ] {
+        let mut scene = floor(base.clone());
+        textured(&mut scene, slot, [1, 1], vec![texel]);
+        let (found, expected) = (picture(&scene), picture(&floor(expected)));
+        assert!(difference(&found, &expected) < 1e-3, "{slot:?}: {}", difference(&found, &expected));
+        if slot != TextureSlot::Occlusion {
+            assert!(difference(&found, &picture(&floor(base.clone()))) > 5e-3, "{slot:?} makes no difference");
+        }
+    }
+}
+
+#[test]
+fn occlusion_weakens_the_environment_alone() {
+    let settings = Settings { lights_visible: false, ambient: Vec3::ONE, ..Settings::default() };
+    let lit = |scene: &Scene| linear(scene, &LtcTable::embedded(), &settings, SIZE);
+    let mut scene = floor(rich());
+    scene.materials[0].occlusion_strength = 0.5;
+    textured(&mut scene, TextureSlot::Occlusion, [1, 1], vec![[51, 255, 255, 255]]);
+    let weakened = Settings { ambient: Vec3::splat(1.0 - 0.5 * 0.8), ..settings.clone() };
+    let expected = linear(&floor(rich()), &LtcTable::embedded(), &weakened, SIZE);
+    assert!(difference(&lit(&scene), &expected) < 1e-3);
+}
+
+/// The emitted colour at the centre of a quarter of the floor: right, near.
+fn quarter(picture: &LinearImage, right: bool, near: bool) -> [u8; 3] {
+    let x = if right { 58 } else { 38 };
+    let y = if near { 44 } else { 24 };
+    picture.pixels[y * SIZE[0] as usize + x].map(|channel| (channel * 255.0).round() as u8)
+}
+
+/// Red, green, blue, white: by rows from the top.
+fn four() -> Vec<[u8; 4]> {
+    vec![[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 255]]
+}
+
+/// Shows a texture as emission, and nothing else.
+fn shown(change: impl Fn(&mut Scene)) -> [[u8; 3]; 4] {
+    let mut scene = floor(Material { base_color: Vec3::ZERO, emission: Vec3::ONE, ..plain() });
+    textured(&mut scene, TextureSlot::Emission, [2, 2], four());
+    scene.textures[0].sampler.magnify = velour::scene::Filter::Nearest;
+    change(&mut scene);
+    let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
+    let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    [(false, false), (true, false), (false, true), (true, true)].map(|(right, near)| quarter(&picture, right, near))
+}
+
+#[test]
+fn textures_are_the_right_way_up_and_transformed() {
+    const RED: [u8; 3] = [255, 0, 0];
+    const GREEN: [u8; 3] = [0, 255, 0];
+    const BLUE: [u8; 3] = [0, 0, 255];
+    const WHITE: [u8; 3] = [255; 3];
+    assert_eq!(shown(|_| {}), [RED, GREEN, BLUE, WHITE]);
+    let used = |scene: &mut Scene, change: &dyn Fn(&mut TextureUse)| {
+        change(scene.materials[0].textures[TextureSlot::Emission as usize].as_mut().unwrap());
+    };
+    assert_eq!(shown(|scene| used(scene, &|texture| texture.tex_coord = 1)), [RED, BLUE, GREEN, WHITE]);
+    let half_right = Affine2::from_translation(Vec2::new(0.5, 0.0));
+    let shifted = shown(|scene| used(scene, &|texture| texture.uv_from_tex_coord = half_right));
+    assert_eq!(shifted, [GREEN, RED, WHITE, BLUE]);
+    let clamped = shown(|scene| {
+        used(scene, &|texture| texture.uv_from_tex_coord = half_right);
+        scene.textures[0].sampler.wrap[0] = velour::scene::Wrap::Clamp;
+    });
+    assert_eq!(clamped, [GREEN, GREEN, WHITE, WHITE]);
+    let mirrored = shown(|scene| {
+        used(scene, &|texture| texture.uv_from_tex_coord = Affine2::from_translation(Vec2::new(1.0, 0.0)));
+        scene.textures[0].sampler.wrap[0] = velour::scene::Wrap::Mirror;
+    });
+    assert_eq!(mirrored, [GREEN, RED, WHITE, BLUE]);
+}
+
+#[test]
+fn far_textures_are_their_mean_in_linear_light() {
+    let checker: Vec<[u8; 4]> =
+        (0..64 * 64).map(|at| if (at % 64 + at / 64) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }).collect();
+    let mut scene = floor(Material { base_color: Vec3::ZERO, emission: Vec3::ONE, ..plain() });
+    textured(&mut scene, TextureSlot::Emission, [64, 64], checker);
+    let repeated = Affine2::from_scale(Vec2::splat(40.0));
+    scene.materials[0].textures[TextureSlot::Emission as usize].as_mut().unwrap().uv_from_tex_coord = repeated;
+    let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
+    let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    for near in [false, true] {
+        let [r, ..] = quarter(&picture, false, near);
+        assert!((120..=135).contains(&r), "{r}");
+    }
+}
+
+#[test]
+fn vertex_colours_multiply_the_base() {
+    let mut colored = floor(plain());
+    colored.meshes[0].colors = vec![[32768, 65535, 16384, 65535]; 4];
+    let expected = Vec3::new(32768.0, 65535.0, 16384.0) / 65535.0;
+    assert!(difference(&picture(&colored), &picture(&floor(Material { base_color: expected, ..plain() }))) < 1e-4);
+}
+
+#[test]
+fn a_mapped_normal_is_one_that_the_mesh_might_have() {
+    // Leaning to the right and away from the viewer, as a byte can say it.
+    let texel = [180_u8, 150, 230, 255];
+    let mapped = Vec3::new(f32::from(texel[0]), f32::from(texel[1]), f32::from(texel[2])) / 127.5 - 1.0;
+    for mirrored in [false, true] {
+        let mut scene = floor(rich());
+        textured(&mut scene, TextureSlot::Normal, [1, 1], vec![texel]);
+        let mut expected = floor(rich());
+        if mirrored {
+            // The floor's own tangents are mirrored with it, and so is what the texture says.
+            for scene in [&mut scene, &mut expected] {
+                let flip = glam::Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+                scene.instances[0].world_from_mesh = scene.instances[0].world_from_mesh * flip;
+            }
+        }
+        expected.meshes[0].normals = vec![mapped.normalize(); 4];
+        let (found, expected) = (picture(&scene), picture(&expected));
+        assert!(difference(&found, &expected) < 1e-3, "mirrored {mirrored}: {}", difference(&found, &expected));
+    }
+}
+
+#[test]
+fn light_from_below_the_surface_reaches_no_mapped_normal() {
+    // A wall of light that stands on the floor and reaches as far below it as above.
+    let tall = |half_height: f32, y: f32| {
+        let floor = Thing::rectangle([1.5, 1.5], rich()).placed(facing(ORIGIN, UP));
+        let wall =
+            Thing::rectangle([1.0, half_height], glow([4.0, 3.0, 2.0])).placed(facing([0.0, y, -1.0], [0.0, y, 0.0]));
+        let mut scene = Stage::new(vec![floor, wall], looking([0.0, 1.4, 2.2], ORIGIN)).scene();
+        let mesh = &mut scene.meshes[0];
+        mesh.tex_coords[0] = vec![Vec2::ZERO; 4];
+        mesh.tangents = vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4];
+        // Leaning towards the wall: its horizon is far below the floor there.
+        textured(&mut scene, TextureSlot::Normal, [1, 1], vec![[128, 36, 200, 255]]);
+        picture(&scene)
+    };
+    let (whole, upper) = (tall(1.0, 0.0), tall(0.5, 0.5));
+    assert!(difference(&whole, &upper) < 1e-3, "{}", difference(&whole, &upper));
+    assert!(difference(&tall(1.0, 0.5), &upper) > 0.05, "more light above the floor is told");
+}
+
+#[test]
+fn what_is_masked_is_not_there_and_what_is_blended_shows_what_is_behind() {
+    let curtain = |alpha_mode, opacity: f32| {
+        let floor = Thing::rectangle([1.5, 1.5], plain()).placed(facing(ORIGIN, UP));
+        let material = Material { base_color: Vec3::X, unlit: true, alpha_mode, opacity, ..plain() };
+        let near = Thing::rectangle([3.0, 3.0], material.clone()).placed(facing([0.0, 1.05, 1.65], [0.0, 1.4, 2.2]));
+        let far = Thing::rectangle([3.0, 3.0], Material { base_color: Vec3::Y, ..material })
+            .placed(facing([0.0, 0.84, 1.32], [0.0, 1.4, 2.2]));
+        let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
+        // The nearer curtain comes first in the file.
+        picture(&Stage::new(vec![near, far, floor, window], looking([0.0, 1.4, 2.2], ORIGIN)).scene())
+    };
+    let bare = curtain(AlphaMode::Mask { cutoff: 0.5 }, 0.4);
+    assert!(difference(&bare, &picture(&floor(plain()))) < 1e-6, "masked away");
+    let solid = curtain(AlphaMode::Mask { cutoff: 0.5 }, 0.6);
+    assert!(solid.pixels.iter().all(|pixel| *pixel == [1.0, 0.0, 0.0]), "unlit, and not masked");
+    assert_eq!(curtain(AlphaMode::Opaque, 0.3), solid);
+    let blended = curtain(AlphaMode::Blend, 0.25);
+    for (blended, bare) in blended.pixels.iter().zip(&bare.pixels) {
+        let expected = Vec3::new(0.25, 0.75 * 0.25, 0.0) + 0.75 * 0.75 * Vec3::from(*bare);
+        assert!((Vec3::from(*blended) - expected).abs().max_element() < 1e-3, "{blended:?} is not {expected}");
+    }
+}
