@@ -1,14 +1,14 @@
 //! The specular base: microfacets themselves, and the transformed cosine of real-time rendering.
 
 use super::{Bsdf, Sample, check_uniforms, cosine};
-use crate::math::check_cosine;
 use crate::math::frame::AzimuthFrame;
+use crate::math::{check_cosine, cube_root};
 use crate::physics::microfacet::{self, Reflected};
 use crate::table::{GgxLobe, GgxTable, SpecularLtc, cell, node};
 use glam::DVec3;
 
-/// Nodes along sqrt(1 - mu) at which a [`Ggx`] knows its shares: linear between them, they are off by 1e-3 at most.
-const SHARES: usize = 65;
+/// Nodes along the cube root of mu, near enough at mu = alpha where R dips: linear between them, shares are off by 1e-3 at most.
+const SHARES: usize = 129;
 
 /// Schlick's approximation of Fresnel's reflectance, of one colour channel: f0 head on, f90 at grazing angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl Schlick {
 pub struct Ggx {
     facets: microfacet::Ggx,
     schlick: Schlick,
-    /// At the nodes of sqrt(1 - mu).
+    /// At the nodes of mu^(1/3).
     shares: Vec<Reflected>,
 }
 
@@ -62,12 +62,12 @@ impl Ggx {
     pub fn new(roughness: f64, schlick: Schlick) -> Self {
         check_roughness(roughness);
         let facets = microfacet::Ggx::from_roughness(roughness);
-        let shares = (0..SHARES).map(|k| facets.reflected(1.0 - node(k, SHARES).powi(2))).collect();
+        let shares = (0..SHARES).map(|k| facets.reflected(node(k, SHARES).powi(3))).collect();
         Self { facets, schlick, shares }
     }
 
     fn shares(&self, mu: f64) -> Reflected {
-        let (below, t) = cell((1.0 - mu).sqrt(), SHARES);
+        let (below, t) = cell(cube_root(mu), SHARES);
         let [low, high] = [self.shares[below], self.shares[below + 1]];
         let between = |value: fn(Reflected) -> f64| (1.0 - t) * value(low) + t * value(high);
         Reflected { albedo: between(|share| share.albedo), fresnel: between(|share| share.fresnel) }

@@ -3,7 +3,9 @@
 //! Statistical tests have fixed seeds. A chi-square test fails where its probability falls below `SIGNIFICANCE`, and a
 //! comparison of means where it is off by more than the stated number of standard errors.
 
+mod base;
 mod fit;
+mod ggx_table;
 mod hostile_table;
 mod medium;
 mod microfacet;

@@ -134,9 +134,6 @@ fn a_fit_is_a_minimum_and_recovers_what_it_may() {
             assert!(distance(&nodes, albedo(&nodes), wrong) > near.distance, "{wrong:?}");
         }
     }
-    // A lobe on the other side of the normal has little light in common.
-    let elsewhere = SpecularLtc { a: 6.0, b: -12.0, c: 6.0 };
-    assert!((1.5..2.0).contains(&distance(&nodes, albedo(&nodes), elsewhere)));
 }
 
 #[test]
