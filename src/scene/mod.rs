@@ -4,6 +4,7 @@
 
 mod bounds;
 mod camera;
+mod emitter;
 mod error;
 mod framing;
 pub mod gltf;
@@ -16,6 +17,7 @@ mod notices;
 mod outline;
 mod rig;
 mod settings;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod texture;
