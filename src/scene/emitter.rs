@@ -1,141 +1,26 @@
-//! The mean of an emissive texture over an emitter: what the light that stands for it radiates.
+//! Meshes that are drawn for polygon lights.
 
-use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
-use rayon::prelude::*;
+use glam::{Vec2, Vec3};
 
-use super::{Image, Mesh, Sampler, Scene, TextureSlot, Wrap};
+use super::{Material, Mesh, Scene};
 
-/// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
-const TEXELS: f64 = (1 << 20) as f64;
-/// Points a texel, and all together at least.
-const POINTS: f64 = 4.0;
-const POINTS_MIN: f64 = (1 << 16) as f64;
-
-/// The radiance of an instance's emissive surface, linear Rec. 709: its material's emission times the mean of its emissive
-/// texture, over the area in the world. Finite. A mesh without the set of texture coordinates has all of them at (0, 0).
-///
-/// The texture is taken bilinearly at the points of a low-discrepancy sequence in each triangle, 4 a texel or more. Noise,
-/// where every texel differs from the next, comes out within 0.0005 of white.
-pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
-    let instance = &scene.instances[instance];
-    let mesh = &scene.meshes[instance.mesh];
-    let material = &scene.materials[mesh.material];
-    let Some(used) = material.texture(TextureSlot::Emission).filter(|_| material.emission != Vec3::ZERO) else {
-        return material.emission;
-    };
-    let texture = scene.textures[used.texture];
-    let coordinates = &mesh.tex_coords[used.tex_coord];
-    let uv = |corner: u32| {
-        let own = coordinates.get(corner as usize).copied().unwrap_or(Vec2::ZERO);
-        used.uv_from_tex_coord.as_daffine2().transform_point2(own.as_dvec2())
-    };
-    let triangles = mesh.indices.as_chunks::<3>().0;
-    let span = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(uv);
-        let area = 0.5 * (b - a).perp_dot(c - a).abs();
-        if area.is_finite() { area } else { f64::MAX.sqrt() }
-    };
-    let mut level = Level::new(&scene.images[texture.image]);
-    let spans: f64 = triangles.par_iter().map(span).sum();
-    while level.texels.len() > 1 && spans * level.texels.len() as f64 > TEXELS {
-        level = level.halved();
-    }
-    // Points for all of the image's area. Where there is one texel, or no area, one point a triangle will do.
-    let density = (POINTS * level.texels.len() as f64).max(POINTS_MIN / spans);
-    let density = if level.texels.len() > 1 && density.is_finite() { density } else { 0.0 };
-    let mean = |triangle: &[u32; 3]| {
-        level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, texture.sampler)
-    };
-    let weighted = |triangle: &[u32; 3]| {
-        let area = area(mesh, instance.world_from_mesh, triangle);
-        (area * mean(triangle), area)
-    };
-    let add = |left: (DVec3, f64), right: (DVec3, f64)| (left.0 + right.0, left.1 + right.1);
-    // In order, so that the sum is the same every time.
-    let parts: Vec<(DVec3, f64)> = triangles.par_iter().map(weighted).collect();
-    let (sum, area) = parts.into_iter().fold((DVec3::ZERO, 0.0), add);
-    if area > 0.0 && sum.is_finite() { material.emission * (sum / area).as_vec3() } else { Vec3::ZERO }
+/// Adds a mesh, and a black material for it, that glows with `emission`: the convex polygon of `corners` in the plane
+/// z = 0, counter-clockwise seen from +z, where it shines to. Gives the mesh's index.
+pub(super) fn add_mesh(scene: &mut Scene, name: &str, corners: &[Vec2], emission: Vec3) -> usize {
+    scene.materials.push(Material { emission, ..Material::matte(name, Vec3::ZERO) });
+    let fan = (2..corners.len() as u32).flat_map(|corner| [0, corner - 1, corner]);
+    scene.meshes.push(Mesh {
+        name: name.to_owned(),
+        positions: corners.iter().map(|corner| corner.extend(0.0)).collect(),
+        normals: vec![Vec3::Z; corners.len()],
+        indices: fan.collect(),
+        material: scene.materials.len() - 1,
+        ..Mesh::default()
+    });
+    scene.meshes.len() - 1
 }
 
-/// Twice a triangle's area in the world.
-fn area(mesh: &Mesh, world_from_mesh: Mat4, triangle: &[u32; 3]) -> f64 {
-    let place = |corner: u32| world_from_mesh.as_dmat4().transform_point3(mesh.positions[corner as usize].as_dvec3());
-    let [a, b, c] = triangle.map(place);
-    (b - a).cross(c - a).length()
-}
-
-/// A linear image.
-struct Level {
-    width: usize,
-    height: usize,
-    texels: Vec<Vec3>,
-}
-
-impl Level {
-    fn new(image: &Image) -> Self {
-        let linear: Vec<f32> = (0..=255).map(linear_from_srgb).collect();
-        let texel = |&[red, green, blue, _]: &[u8; 4]| Vec3::from([red, green, blue].map(|code| linear[code as usize]));
-        let texels = image.texels.iter().map(texel).collect();
-        Self { width: image.width as usize, height: image.height as usize, texels }
-    }
-
-    /// The next mipmap. The last of an odd row or column counts twice.
-    fn halved(&self) -> Self {
-        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
-        let at = |x: usize, y: usize| self.texels[y.min(self.height - 1) * self.width + x.min(self.width - 1)];
-        let mean = |(x, y): (usize, usize)| {
-            0.25 * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1))
-        };
-        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        Self { width, height, texels: places.map(mean).collect() }
-    }
-
-    /// The mean over a triangle, at as many points.
-    fn mean(&self, [a, b, c]: [DVec2; 3], points: u32, sampler: Sampler) -> DVec3 {
-        // The sequence of the plastic number (M. Roberts 2018); its first point is the middle.
-        const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
-        let sum: DVec3 = (0..points)
-            .map(|point| {
-                let at = (DVec2::splat(0.5) + f64::from(point) * STEP).fract();
-                // The unit square's upper half, folded onto the lower.
-                let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
-                let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
-                self.at(a + at.x * (b - a) + at.y * (c - a), sampler).as_dvec3()
-            })
-            .sum();
-        sum / f64::from(points)
-    }
-
-    /// Bilinear.
-    fn at(&self, uv: DVec2, sampler: Sampler) -> Vec3 {
-        let place = uv * DVec2::new(self.width as f64, self.height as f64) - 0.5;
-        // Further away there are no fractions left; what is not finite is anywhere.
-        let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
-        let (corner, fraction) = (place.floor(), (place - place.floor()).as_vec2());
-        let [columns, rows] = [(corner.x, self.width, 0), (corner.y, self.height, 1)]
-            .map(|(at, side, axis)| [at as i64, at as i64 + 1].map(|at| wrapped(at, side as i64, sampler.wrap[axis])));
-        let row = |y: usize| {
-            let [left, right] = columns.map(|x| self.texels[y * self.width + x]);
-            left.lerp(right, fraction.x)
-        };
-        row(rows[0]).lerp(row(rows[1]), fraction.y)
-    }
-}
-
-/// The texel in [0, side) that stands at any place.
-fn wrapped(at: i64, side: i64, wrap: Wrap) -> usize {
-    (match wrap {
-        Wrap::Repeat => at.rem_euclid(side),
-        Wrap::Clamp => at.clamp(0, side - 1),
-        Wrap::Mirror => {
-            let at = at.rem_euclid(2 * side);
-            at.min(2 * side - 1 - at)
-        }
-    }) as usize
-}
-
-/// The inverse of the sRGB transfer function (IEC 61966-2-1), of a code of 8 bits.
-fn linear_from_srgb(code: u8) -> f32 {
-    let encoded = f32::from(code) / 255.0;
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+/// A rectangle about the origin, counter-clockwise.
+pub(super) fn rectangle(half_size: Vec2) -> [Vec2; 4] {
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| half_size * Vec2::new(x, y))
 }

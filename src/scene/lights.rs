@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::islands::Topology;
 use super::notices::Notices;
-use super::{Light, Scene, emitter};
+use super::{Light, Scene, emission};
 
 /// The most planar islands of an instance that lights.
 pub const ISLANDS_MAX: usize = 256;
@@ -41,7 +41,7 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         } else if own > 0 {
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
-            let (radiance, two_sided) = (emitter::radiance(scene, index), material.double_sided);
+            let (radiance, two_sided) = (emission::radiance(scene, index), material.double_sided);
             let texture_mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
             scene.lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
         }

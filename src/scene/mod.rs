@@ -4,6 +4,7 @@
 
 mod bounds;
 mod camera;
+mod emission;
 mod emitter;
 mod error;
 mod framing;
@@ -17,6 +18,7 @@ mod notices;
 mod outline;
 mod rig;
 mod settings;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod texture;

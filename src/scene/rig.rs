@@ -1,9 +1,9 @@
 //! Lights for files without any: a key, a fill and a rim light, as in a photographer's studio.
 
-use glam::{Mat3, Mat4, Vec3};
+use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::notices::Notices;
-use super::{Camera, Instance, Material, Mesh, Projection, Scene, framing, lights};
+use super::{Camera, Instance, Projection, Scene, emitter, framing, lights};
 
 /// Radiance of a white diffuse surface that faces the key light.
 const KEY_LEVEL: f32 = 0.7;
@@ -49,7 +49,8 @@ impl Panel {
 
 /// Adds the rig around what the first camera shows, where nothing lights the scene.
 pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
-    let (true, Some(camera)) = (scene.lights.is_empty(), scene.cameras.first()) else { return };
+    let is_dark = scene.lights.is_empty() && scene.punctual_lights.is_empty();
+    let (true, Some(camera)) = (is_dark, scene.cameras.first()) else { return };
     let first = scene.instances.len();
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
@@ -87,19 +88,10 @@ fn shows(camera: &Camera, world_from_mesh: Mat4) -> bool {
 }
 
 fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
-    let name = || format!("default {} light", panel.name);
+    let name = format!("default {} light", panel.name);
     // The form factor of a small rectangle that faces a surface: its area over pi times the distance squared.
     let form_factor = 4.0 * panel.half_size[0] * panel.half_size[1] / (std::f32::consts::PI * DISTANCE * DISTANCE);
     let emission = Vec3::splat(panel.level / form_factor);
-    scene.materials.push(Material { emission, ..Material::matte(name(), Vec3::ZERO) });
-    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
-    scene.meshes.push(Mesh {
-        name: name(),
-        positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
-        normals: vec![Vec3::Z; 4],
-        indices: vec![0, 1, 2, 0, 2, 3],
-        material: scene.materials.len() - 1,
-        ..Mesh::default()
-    });
-    scene.instances.push(Instance { name: name(), mesh: scene.meshes.len() - 1, world_from_mesh });
+    let mesh = emitter::add_mesh(scene, &name, &emitter::rectangle(Vec2::ONE), emission);
+    scene.instances.push(Instance { name, mesh, world_from_mesh });
 }

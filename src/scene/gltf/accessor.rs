@@ -1,13 +1,17 @@
 //! Typed reading of accessors, every range checked.
 
-use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{self, Root};
 
 use super::Fault;
 use super::buffers::{self, Bytes};
+use super::elements::{Elements, Sparse, decoder, unsigned};
 use crate::scene::error::label;
+
+/// Accessors may share the indices of their sparse elements, each of which is looked at: they get this many times the
+/// bytes of all buffers, where those that share nothing need less than one.
+const SPARSE_SHARING: u64 = 16;
 
 /// The accessors of a file with what they read.
 pub struct Accessors<'a> {
@@ -15,26 +19,35 @@ pub struct Accessors<'a> {
     pub buffers: &'a [Bytes<'a>],
 }
 
+/// Which components stand for numbers of a kind. All may be floats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Numbers {
+    /// Nothing else.
+    Floats,
+    /// Integers of 8 or 16 bits as they are, or normalized where the accessor says so.
+    Quantized,
+    /// Signed integers of 8 or 16 bits, normalized.
+    Signed,
+    /// Unsigned integers of 8 or 16 bits, normalized.
+    Unsigned,
+}
+
+impl Numbers {
+    fn components(self) -> &'static [ComponentType] {
+        use ComponentType::{F32, I8, I16, U8, U16};
+        match self {
+            Self::Floats => &[F32],
+            Self::Quantized => &[F32, I8, U8, I16, U16],
+            Self::Signed => &[F32, I8, I16],
+            Self::Unsigned => &[F32, U8, U16],
+        }
+    }
+}
+
 /// The layout of an accessor's elements within its view, in bytes.
 struct Layout {
     offset: u64,
     stride: u64,
-    element: u64,
-    count: u64,
-}
-
-/// What an accessor reads.
-struct Elements<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-    size: usize,
-    count: usize,
-}
-
-impl<'a> Elements<'a> {
-    fn get(&self, at: usize) -> &'a [u8] {
-        &self.bytes[at * self.stride..][..self.size]
-    }
 }
 
 impl<'a> Accessors<'a> {
@@ -56,20 +69,50 @@ impl<'a> Accessors<'a> {
                 return Err(wrong(format!("byteStride {stride} is no multiple of 4 from 4 to 252")));
             }
         }
-        (0..self.root.accessors.len()).try_for_each(|index| self.layout(index).map(|_| ()))
+        let bytes: u64 = self.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
+        let mut budget = bytes.saturating_mul(SPARSE_SHARING);
+        (0..self.root.accessors.len()).try_for_each(|index| {
+            self.layout(index)?;
+            self.check_sparse(index, &mut budget)
+        })
     }
 
-    /// The positions, or other triples of finite floats, of an accessor: those `used`, or all.
-    pub fn vectors(&self, index: usize, used: Option<&[u32]>) -> Result<Vec<Vec3>, Fault> {
-        let accessor = self.expect(index, &[ComponentType::F32], Type::Vec3)?;
+    /// Checks that the sparse indices of an accessor increase and stand for elements that it has.
+    fn check_sparse(&self, index: usize, budget: &mut u64) -> Result<(), Fault> {
+        let accessor = self.get(index)?;
+        let Some(sparse) = self.sparse(index)? else { return Ok(()) };
+        let wrong = |what: String| Fault::at(label("accessor", index, accessor.name.as_deref()), what);
+        let over = || wrong("too many accessors share the same sparse indices; export the file again".to_owned());
+        *budget = budget.checked_sub((sparse.indices.len() / sparse.width) as u64).ok_or_else(over)?;
+        match sparse.first_bad(accessor.count.0) {
+            None => Ok(()),
+            Some((at, element)) => {
+                let what = "its sparse indices must increase and be less than its count; export the file again";
+                Err(wrong(format!("sparse index {at} is {element}; {what}")))
+            }
+        }
+    }
+
+    /// `N` finite numbers for each element: those `used`, or all.
+    pub fn read<T: From<[f32; N]>, const N: usize>(
+        &self,
+        index: usize,
+        kind: Type,
+        numbers: Numbers,
+        used: Option<&[u32]>,
+    ) -> Result<Vec<T>, Fault> {
+        let (accessor, component) = self.expect(index, numbers.components(), kind)?;
         let elements = self.elements(index)?;
+        let is_normalized = accessor.normalized || matches!(numbers, Numbers::Signed | Numbers::Unsigned);
+        let (decode, width) = (decoder(component, is_normalized), component.size());
         let read = |at: usize| {
             let bytes = elements.get(at);
-            let float = |at: usize| f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
-            let vector = Vec3::new(float(0), float(4), float(8));
-            let what = format_args!("element {at} is {vector}; give finite numbers");
-            let wrong = || Fault::at(label("accessor", index, accessor.name.as_deref()), what);
-            vector.is_finite().then_some(vector).ok_or_else(wrong)
+            let vector: [f32; N] = std::array::from_fn(|part| decode(&bytes[part * width..]));
+            if vector.iter().all(|number| number.is_finite()) {
+                return Ok(T::from(vector));
+            }
+            let what = format_args!("element {at} is {vector:?}; give finite numbers");
+            Err(Fault::at(label("accessor", index, accessor.name.as_deref()), what))
         };
         match used {
             None => (0..elements.count).map(read).collect(),
@@ -81,13 +124,25 @@ impl<'a> Accessors<'a> {
     pub fn indices(&self, index: usize) -> Result<Vec<u32>, Fault> {
         self.expect(index, &[ComponentType::U8, ComponentType::U16, ComponentType::U32], Type::Scalar)?;
         let elements = self.elements(index)?;
-        let read = |bytes: &[u8]| bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte));
-        Ok((0..elements.count).map(|at| read(elements.get(at))).collect())
+        Ok((0..elements.count).map(|at| unsigned(elements.get(at))).collect())
     }
 
-    /// How many elements can be read.
+    /// How many elements can be read. As many as the file says: where there is no view, none of its bytes stand for them.
     pub fn count(&self, index: usize) -> Result<usize, Fault> {
         Ok(self.elements(index)?.count)
+    }
+
+    /// Whether there are elements to be read: a compressed mesh may have none.
+    pub fn has_data(&self, index: usize) -> bool {
+        self.root
+            .accessors
+            .get(index)
+            .is_some_and(|accessor| accessor.buffer_view.is_some() || accessor.sparse.is_some())
+    }
+
+    /// Whether elements are of a type.
+    pub fn is_of(&self, index: usize, kind: Type) -> bool {
+        self.root.accessors.get(index).is_some_and(|accessor| accessor.type_ == Valid(kind))
     }
 
     fn get(&self, index: usize) -> Result<&'a json::Accessor, Fault> {
@@ -95,15 +150,20 @@ impl<'a> Accessors<'a> {
         self.root.accessors.get(index).ok_or_else(missing)
     }
 
-    fn expect(&self, index: usize, components: &[ComponentType], kind: Type) -> Result<&'a json::Accessor, Fault> {
+    fn expect(
+        &self,
+        index: usize,
+        components: &[ComponentType],
+        kind: Type,
+    ) -> Result<(&'a json::Accessor, ComponentType), Fault> {
         let accessor = self.get(index)?;
         let Valid(component) = accessor.component_type else { return Err(self.unknown_type(index)) };
         if accessor.type_ == Valid(kind) && components.contains(&component.0) {
-            return Ok(accessor);
+            return Ok((accessor, component.0));
         }
         let names: Vec<String> = components.iter().map(|component| component.as_gl_enum().to_string()).collect();
         let names = names.join(", ");
-        let what = format_args!("must be {kind:?} of component type {names}; export the file without quantization");
+        let what = format_args!("must be {kind:?} of component type {names}; export the file again");
         Err(Fault::at(label("accessor", index, accessor.name.as_deref()), what))
     }
 
@@ -115,19 +175,29 @@ impl<'a> Accessors<'a> {
     /// The elements, all there.
     fn elements(&self, index: usize) -> Result<Elements<'a>, Fault> {
         let accessor = self.get(index)?;
-        let place = || label("accessor", index, accessor.name.as_deref());
-        if accessor.sparse.is_some() {
-            return Err(Fault::at(place(), "is sparse, which is not served; export the file without sparse accessors"));
-        }
-        let view = accessor.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
-        let (Some(bytes), Some(layout)) = (view, self.layout(index)?) else {
+        if !self.has_data(index) {
             let what = "has no bufferView (a compressed mesh perhaps); export the file without compression";
-            return Err(Fault::at(place(), what));
+            return Err(Fault::at(label("accessor", index, accessor.name.as_deref()), what));
+        }
+        let size = self.size(index)?;
+        let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
+        let sparse = self.sparse(index)?;
+        let Some(Layout { offset, stride }) = self.layout(index)? else {
+            return Ok(Elements { bytes: None, stride: 0, size, count, sparse });
         };
         // No more than the view's length, which is that of bytes in memory.
-        let [count, offset, stride, size] =
-            [layout.count, layout.offset, layout.stride, layout.element].map(|bytes| bytes as usize);
-        Ok(Elements { bytes: &bytes[offset..], stride, size, count })
+        let [offset, stride] = [offset, stride].map(|bytes| bytes as usize);
+        let view = accessor.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
+        Ok(Elements { bytes: view.map(|bytes| &bytes[offset..]), stride, size, count, sparse })
+    }
+
+    /// Bytes of one element.
+    fn size(&self, index: usize) -> Result<usize, Fault> {
+        let accessor = self.get(index)?;
+        match (accessor.component_type, accessor.type_) {
+            (Valid(component), Valid(kind)) => Ok(component.0.size() * kind.multiplicity()),
+            _ => Err(self.unknown_type(index)),
+        }
     }
 
     /// Where the elements lie, none where there is no view. They lie within the view.
@@ -136,9 +206,7 @@ impl<'a> Accessors<'a> {
         let wrong = |what: String| {
             Fault::at(label("accessor", index, accessor.name.as_deref()), format_args!("{what}; export the file again"))
         };
-        let (Valid(component), Valid(kind)) = (accessor.component_type, accessor.type_) else {
-            return Err(self.unknown_type(index));
-        };
+        let element = self.size(index)? as u64;
         let count = accessor.count.0;
         if count == 0 {
             return Err(wrong("count is 0".to_owned()));
@@ -146,7 +214,6 @@ impl<'a> Accessors<'a> {
         let Some(view_index) = accessor.buffer_view else { return Ok(None) };
         let view = self.root.buffer_views.get(view_index.value());
         let view = view.ok_or_else(|| wrong(format!("there is no bufferView {view_index}")))?;
-        let element = (component.0.size() * kind.multiplicity()) as u64;
         let stride = view.byte_stride.map_or(element, |stride| stride.0 as u64);
         let offset = accessor.byte_offset.unwrap_or_default().0;
         if stride < element {
@@ -158,6 +225,36 @@ impl<'a> Accessors<'a> {
             let what = format!("{count} elements from {offset} do not lie in bufferView {view_index}'s {length} bytes");
             return Err(wrong(what));
         }
-        Ok(Some(Layout { offset, stride, element, count }))
+        Ok(Some(Layout { offset, stride }))
+    }
+
+    /// The elements of an accessor that stand in for others; they lie within their views.
+    fn sparse(&self, index: usize) -> Result<Option<Sparse<'a>>, Fault> {
+        let accessor = self.get(index)?;
+        let Some(sparse) = &accessor.sparse else { return Ok(None) };
+        let wrong = |what: String| {
+            let what = format_args!("sparse: {what}; export the file again");
+            Fault::at(label("accessor", index, accessor.name.as_deref()), what)
+        };
+        let count = sparse.count.0;
+        if count == 0 || count > accessor.count.0 {
+            return Err(wrong(format!("count is {count}, of {} elements", accessor.count.0)));
+        }
+        let Valid(json::accessor::IndexComponentType(component)) = sparse.indices.component_type else {
+            return Err(wrong("componentType is none that indices have".to_owned()));
+        };
+        let part = |view: usize, offset: u64, element: usize| {
+            let bytes = buffers::view(self.root, self.buffers, view);
+            let bytes = bytes.ok_or_else(|| wrong(format!("there is no bufferView {view}")))?;
+            let range = usize::try_from(offset)
+                .ok()
+                .zip(usize::try_from(count).ok().and_then(|count| count.checked_mul(element)));
+            let part = range.and_then(|(offset, length)| bytes.get(offset..offset.checked_add(length)?));
+            part.ok_or_else(|| wrong(format!("{count} elements do not lie in bufferView {view}")))
+        };
+        let size = self.size(index)?;
+        let indices = part(sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0, component.size())?;
+        let values = part(sparse.values.buffer_view.value(), sparse.values.byte_offset.0, size)?;
+        Ok(Some(Sparse { indices, width: component.size(), values, size }))
     }
 }

@@ -8,10 +8,11 @@ use gltf::json::Root;
 use super::accessor::Accessors;
 use super::nodes::{Placed, node_label};
 use super::primitives::Reader;
+use super::skins::Skins;
 use super::{Fault, cut, materials};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Bounds, Instance, Scene};
+use crate::scene::{Bounds, Instance, Mesh, Scene};
 
 /// A few bytes of a file put a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
@@ -49,12 +50,16 @@ impl<'a> Assembly<'a> {
 
     /// Adds an instance for each primitive at a node, and the meshes that these show.
     pub fn add(mut self, placed: &[Placed]) -> Result<(), Fault> {
-        for &Placed { node: index, world_from_node } in placed {
+        let mut skins = Skins::new(self.root, placed);
+        for &Placed { node: index, world_from_node, .. } in placed {
             let node = &self.root.nodes[index];
             let Some(mesh) = node.mesh else { continue };
-            if node.skin.is_some() {
-                self.notices.add("skins are not applied", || node_label(self.root, index));
+            let skin = node.skin.map(|skin| skins.world_from_mesh(&self.reader.accessors, skin.value())).transpose()?;
+            if skin == Some(None) {
+                let kind = "skins whose joints stand in another pose than they were bound in are not applied";
+                self.notices.add(kind, || node_label(self.root, index));
             }
+            let world_from_node = skin.flatten().unwrap_or(world_from_node);
             self.load(mesh.value())?;
             let wrong = |what: String| Fault::at(node_label(self.root, index), what);
             for &(mesh, bounds) in &self.meshes[&mesh.value()] {
@@ -83,10 +88,10 @@ impl<'a> Assembly<'a> {
         for (index, primitive) in self.root.meshes[mesh].primitives.iter().enumerate() {
             let name = primitive_label(self.root, mesh, index);
             let material = primitive.material.map_or_else(|| self.default_material(), |material| material.value());
-            let read = self.reader.read(primitive, material, name.clone(), self.notices);
+            let read = self.reader.read(primitive, &self.scene.materials[material], name.clone(), self.notices);
             if let Some(read) = read.map_err(|fault| Fault::at(name, fault))? {
                 parts.push((self.scene.meshes.len(), Bounds::of_points(&read.positions)));
-                self.scene.meshes.push(read);
+                self.scene.meshes.push(Mesh { material, ..read });
             }
         }
         self.meshes.insert(mesh, parts);
@@ -113,7 +118,7 @@ pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N])
 }
 
 /// Scaled to nothing along some axis: glTF's way to hide a thing.
-fn is_singular(world_from_node: DAffine3) -> bool {
+pub fn is_singular(world_from_node: DAffine3) -> bool {
     let matrix = world_from_node.matrix3;
     let lengths = [matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length()];
     let volume = matrix.determinant().abs();

@@ -15,6 +15,7 @@ use percent_encoding::percent_decode_str;
 
 use super::Fault;
 use super::container::Document;
+use super::extensions;
 use crate::scene::error::label;
 
 /// The most that is read from one file: what a .glb can say of its own length.
@@ -76,7 +77,9 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
             (Some(uri), _) => Bytes::Read(fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?),
             (None, Some(binary)) if index == 0 => Bytes::Within(binary),
             (None, _) => {
-                let what = "has no data (no URI; a compressed one perhaps); export the file without compression";
+                let codec = buffer.extensions.as_ref().and_then(|extensions| extensions::codec(&extensions.others));
+                let codec = codec.unwrap_or("no URI; a compressed one perhaps");
+                let what = format_args!("has no data ({codec}); export the file without compression");
                 return Err(Fault::at(place(), what));
             }
         };

@@ -16,7 +16,7 @@ use crate::scene::{Camera, Projection};
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<Camera>, Fault> {
     let projections = projections(root)?;
     let mut cameras = Vec::new();
-    for &Placed { node: index, world_from_node } in placed {
+    for &Placed { node: index, world_from_node, .. } in placed {
         let node = &root.nodes[index];
         let Some(camera) = node.camera.map(|camera| camera.value()) else { continue };
         assembly::check_reach(world_from_node, [Vec3::ZERO])

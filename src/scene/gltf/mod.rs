@@ -5,17 +5,23 @@
 //! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
 
 mod accessor;
+mod area;
 mod assembly;
+mod attributes;
 mod buffers;
 mod cameras;
 mod container;
+mod elements;
+mod extensions;
 mod images;
 mod json;
 mod material_extensions;
 mod materials;
 mod nodes;
 mod primitives;
+mod punctual;
 mod references;
+mod skins;
 #[cfg(test)]
 mod tests;
 mod texture_uses;
@@ -51,15 +57,16 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     // Only a path without a file name has no parent.
     let folder = path.parent().unwrap_or(Path::new("."));
     let scene = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder)));
-    scene.map_err(|fault| SceneError::new(&file, fault))
+    scene.map(complete).map_err(|fault| SceneError::new(&file, fault))
 }
 
 /// The scene in the bytes of a .glb, or of a .gltf with all buffers and images in it. `name` stands for the file in errors.
 pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
-    read(bytes, None).map_err(|fault| SceneError::new(name, fault))
+    read(bytes, None).map(complete).map_err(|fault| SceneError::new(name, fault))
 }
 
-fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
+/// What the file holds, and what is to be said of it.
+fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
     let document = container::parse(bytes)?;
     let root = &document.root;
     check_extensions(root)?;
@@ -69,22 +76,31 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, Fault> {
     references::check(root)?;
     let placed = nodes::place(root)?;
     let mut notices = Notices::default();
+    extensions::note(root, &mut notices);
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
     scene.cameras = cameras::read(root, &placed, &mut notices)?;
+    scene.punctual_lights = punctual::read(root, &placed, &mut notices)?;
     Assembly::new(accessors, &mut scene, &mut notices).add(&placed)?;
+    area::add(root, &placed, &mut scene, &mut notices)?;
     if scene.instances.is_empty() {
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
     textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
+    Ok((scene, notices))
+}
+
+/// Adds what the file leaves to be found or made, after its bytes have been let go.
+fn complete((mut scene, mut notices): (Scene, Notices)) -> Scene {
     lights::add_lights(&mut scene, 0, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
     rig::add_rig(&mut scene, &mut notices);
     scene.notices = notices.into_lines().collect();
-    Ok(scene)
+    scene
 }
 
 fn check_extensions(root: &Root) -> Result<(), Fault> {
-    match root.extensions_required.iter().find(|name| !SERVED.contains(&name.as_str())) {
+    let is_served = |name: &str| SERVED.contains(&name) || extensions::SERVED.contains(&name);
+    match root.extensions_required.iter().find(|name| !is_served(name)) {
         None => Ok(()),
         Some(name) => {
             let what = format_args!("requires {}, which is not served; export the file without it", cut(name));

@@ -1,6 +1,6 @@
 //! The tree of nodes: proved to be one, then walked.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf::json::scene::Node;
 use gltf::json::{Index, Root};
 
@@ -14,6 +14,8 @@ const ROTATION_TOLERANCE: f64 = 1e-2;
 pub struct Placed {
     pub node: usize,
     pub world_from_node: DAffine3,
+    /// The rotations of the node and of those above it, scales left out: what turns a thing that no scale may mirror.
+    pub rotation: DQuat,
 }
 
 /// `node 3 "sleeve"`.
@@ -30,16 +32,18 @@ pub fn place(root: &Root) -> Result<Vec<Placed>, Fault> {
         .iter()
         .enumerate()
         .map(|(index, node)| parent_from_node(node).map_err(|what| Fault::at(node_label(root, index), what)));
-    let local: Vec<DAffine3> = local.collect::<Result<_, _>>()?;
+    let local: Vec<Local> = local.collect::<Result<_, _>>()?;
     let roots = scene_roots(root, &parents)?;
     // A stack of our own: chains of nodes may be as long as the file likes.
-    let mut open: Vec<(usize, DAffine3)> = roots.into_iter().rev().map(|node| (node, DAffine3::IDENTITY)).collect();
+    let start = Local { transform: DAffine3::IDENTITY, rotation: DQuat::IDENTITY };
+    let mut open: Vec<(usize, Local)> = roots.into_iter().rev().map(|node| (node, start)).collect();
     let mut placed = Vec::new();
-    while let Some((node, world_from_parent)) = open.pop() {
-        let world_from_node = world_from_parent * local[node];
-        placed.push(Placed { node, world_from_node });
+    while let Some((node, above)) = open.pop() {
+        let (transform, rotation) =
+            (above.transform * local[node].transform, (above.rotation * local[node].rotation).normalize());
+        placed.push(Placed { node, world_from_node: transform, rotation });
         let children = root.nodes[node].children.iter().flatten().rev();
-        open.extend(children.map(|child| (child.value(), world_from_node)));
+        open.extend(children.map(|child| (child.value(), Local { transform, rotation })));
     }
     Ok(placed)
 }
@@ -113,14 +117,22 @@ fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Result<Vec<usize>, Fau
     }
 }
 
+/// A transform and the rotation in it.
+#[derive(Clone, Copy)]
+struct Local {
+    transform: DAffine3,
+    rotation: DQuat,
+}
+
 /// A node's own transform, or what is wrong with it.
-fn parent_from_node(node: &Node) -> Result<DAffine3, String> {
+fn parent_from_node(node: &Node) -> Result<Local, String> {
     let has_parts = node.translation.is_some() || node.rotation.is_some() || node.scale.is_some();
     if let Some(matrix) = &node.matrix {
         if has_parts {
             return Err("has both a matrix and translation, rotation or scale; keep one".to_owned());
         }
-        return affine(matrix);
+        let transform = affine(matrix)?;
+        return Ok(Local { transform, rotation: rotation_of(transform) });
     }
     let vector =
         |name: &str, value: Option<[f32; 3]>, default: DVec3| match value.map(|v| DVec3::from(v.map(f64::from))) {
@@ -134,7 +146,18 @@ fn parent_from_node(node: &Node) -> Result<DAffine3, String> {
     if !((1.0 - ROTATION_TOLERANCE)..=(1.0 + ROTATION_TOLERANCE)).contains(&length) {
         return Err(format!("rotation is a quaternion of length {length}; give one of length 1"));
     }
-    Ok(DAffine3::from_scale_rotation_translation(scale, rotation.normalize(), translation))
+    let rotation = rotation.normalize();
+    Ok(Local { transform: DAffine3::from_scale_rotation_translation(scale, rotation, translation), rotation })
+}
+
+/// The rotation that takes z, and y as far as it is perpendicular to it, where a transform takes them; none where it
+/// leaves no such directions.
+fn rotation_of(transform: DAffine3) -> DQuat {
+    let axes = transform.matrix3;
+    let back = axes.z_axis.try_normalize();
+    let up = back.and_then(|back| (axes.y_axis - back * axes.y_axis.dot(back)).try_normalize());
+    let rotation = back.zip(up).map(|(back, up)| DQuat::from_mat3(&DMat3::from_cols(up.cross(back), up, back)));
+    rotation.unwrap_or(DQuat::IDENTITY)
 }
 
 fn affine(matrix: &[f32; 16]) -> Result<DAffine3, String> {

@@ -1,16 +1,16 @@
-//! Primitives: from accessors to indexed triangles with a normal at each vertex.
+//! Primitives: from accessors to indexed triangles with what each vertex needs.
 
-use glam::{DVec3, Vec3};
-use gltf::json::mesh::{Mode, Primitive, Semantic};
+use glam::{DVec3, Vec3, Vec4};
+use gltf::json::accessor::Type;
+use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked::Valid;
 
 use super::Fault;
-use super::accessor::Accessors;
-use crate::scene::Mesh;
+use super::accessor::{Accessors, Numbers};
+use super::attributes::Attributes;
 use crate::scene::notices::Notices;
+use crate::scene::{Material, Mesh, tangents};
 
-/// What a triangle takes in memory at most: three vertices and three indices of its own.
-const TRIANGLE_BYTES: u64 = 84;
 /// Primitives may share accessors, so that a few bytes could ask for a lot of memory: they get this many times the
 /// bytes of all buffers, several times what primitives that share nothing need, and a little for small files.
 const SHARING: u64 = 64;
@@ -18,7 +18,7 @@ const SHARING_FLOOR: u64 = 64 << 20;
 
 /// Reads primitives, within a budget of memory.
 pub struct Reader<'a> {
-    accessors: Accessors<'a>,
+    pub accessors: Accessors<'a>,
     budget: u64,
 }
 
@@ -28,11 +28,11 @@ impl<'a> Reader<'a> {
         Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
-    /// The mesh of a primitive; none where there is nothing to draw.
+    /// The mesh of a primitive of `material`, whose index is left open; none where there is nothing to draw.
     pub fn read(
         &mut self,
         primitive: &Primitive,
-        material: usize,
+        material: &Material,
         name: String,
         notices: &mut Notices,
     ) -> Result<Option<Mesh>, Fault> {
@@ -44,49 +44,55 @@ impl<'a> Reader<'a> {
         if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
             notices.add("morph targets are not applied", || name.clone());
         }
-        let Some(positions) = primitive.attributes.get(&Valid(Semantic::Positions)) else {
+        let Some(attributes) = Attributes::of(primitive, material, notices, &name) else {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
-        if let Some(codec) = compression(primitive) {
+        if let Some(codec) = compression(primitive)
+            && !self.accessors.has_data(attributes.positions)
+        {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
-        let Corners { used, triangles: mut indices } = self.corners(primitive, positions.value(), mode)?;
-        let positions = self.accessors.vectors(positions.value(), used.as_deref())?;
+        let Corners { used, triangles: mut indices } = self.corners(primitive, &attributes, mode)?;
+        let used = used.as_deref();
+        let positions = self.accessors.read(attributes.positions, Type::Vec3, Numbers::Quantized, used)?;
         indices.retain(|&triangle| area_vector(&positions, triangle) != DVec3::ZERO);
         if indices.is_empty() {
             return Ok(None);
         }
-        let mut mesh = Mesh { name, positions, indices: indices.into_flattened(), material, ..Mesh::default() };
-        match primitive.attributes.get(&Valid(Semantic::Normals)) {
+        let mut mesh = Mesh { name, positions, indices: indices.into_flattened(), ..Mesh::default() };
+        mesh.tex_coords = attributes.read_tex_coords(&self.accessors, used)?;
+        mesh.colors = attributes.read_colors(&self.accessors, used)?;
+        match attributes.normals {
             None => flatten(&mut mesh),
             Some(normals) => {
-                mesh.normals = self.accessors.vectors(normals.value(), used.as_deref())?;
+                mesh.normals = self.accessors.read(normals, Type::Vec3, Numbers::Signed, used)?;
                 unify(&mut mesh, notices);
             }
+        }
+        if let Some(set) = attributes.normal_set {
+            let own = attributes.read_tangents(&self.accessors, used)?;
+            orient(&mut mesh, set, own.as_deref(), notices);
         }
         Ok(Some(mesh))
     }
 
     /// The triangles of a primitive. There are never more vertices than corners, so that what is read is paid for by
     /// indices.
-    fn corners(&mut self, primitive: &Primitive, positions: usize, mode: Mode) -> Result<Corners, Fault> {
-        let count = self.accessors.count(positions)?;
-        if let Some(normals) = primitive.attributes.get(&Valid(Semantic::Normals)) {
-            let normals = self.accessors.count(normals.value())?;
-            if normals != count {
-                return Err(Fault::new(format_args!("has {count} positions and {normals} normals; export it again")));
-            }
-        }
-        let mut corners = match primitive.indices {
-            Some(indices) => self.accessors.indices(indices.value())?,
-            None => (0..u32::try_from(count).unwrap_or(u32::MAX)).collect(),
+    fn corners(&mut self, primitive: &Primitive, attributes: &Attributes, mode: Mode) -> Result<Corners, Fault> {
+        let count = attributes.count(&self.accessors)?;
+        let indices = primitive.indices.map(|indices| indices.value());
+        let corners = indices.map_or(Ok(count), |indices| self.accessors.count(indices))?;
+        self.charge(corners, count, attributes, mode)?;
+        let mut corners = match indices {
+            Some(indices) => self.accessors.indices(indices)?,
+            // Memory has been granted for them: there are fewer than 2^32.
+            None => (0..count as u32).collect(),
         };
         if let Some(at) = corners.iter().position(|&corner| corner as usize >= count) {
             let what = format_args!("index {at} is {}, past its {count} vertices; export it again", corners[at]);
             return Err(Fault::new(what));
         }
-        self.charge(corners.len(), mode)?;
         let used = (count > corners.len()).then(|| {
             let mut used = corners.clone();
             used.sort_unstable();
@@ -100,12 +106,26 @@ impl<'a> Reader<'a> {
         Ok(Corners { used, triangles: triangles(&corners, mode) })
     }
 
-    fn charge(&mut self, corners: usize, mode: Mode) -> Result<(), Fault> {
-        let triangles = if mode == Mode::Triangles { corners / 3 } else { corners } as u64;
+    /// Takes what the triangles of so many corners and vertices need at most from the budget.
+    fn charge(&mut self, corners: usize, count: usize, attributes: &Attributes, mode: Mode) -> Result<(), Fault> {
+        let indices = if mode == Mode::Triangles { corners } else { corners.saturating_mul(3) };
+        let vertices = if attributes.may_split() { indices.max(count.min(corners)) } else { count.min(corners) };
+        let bytes = vertices.saturating_mul(attributes.vertex_bytes()).saturating_add(indices.saturating_mul(4));
         let over = || Fault::new("too many primitives share the same accessors; split the file or export it again");
-        self.budget = self.budget.checked_sub(triangles.saturating_mul(TRIANGLE_BYTES)).ok_or_else(over)?;
-        Ok(())
+        self.budget = self.budget.checked_sub(bytes as u64).ok_or_else(over)?;
+        // Vertices that are split must be counted in 32 bits too.
+        (vertices < u32::MAX as usize).then_some(()).ok_or_else(over)
     }
+}
+
+/// Gives a mesh that is normal-mapped its tangents: the file's own, or others where these will not do.
+fn orient(mesh: &mut Mesh, set: usize, own: Option<&[Vec4]>, notices: &mut Notices) {
+    match own {
+        Some(own) if tangents::adopt(mesh, own) => return,
+        Some(_) => notices.add("tangents of no length or along the normal are computed anew", || mesh.name.clone()),
+        None => {}
+    }
+    tangents::compute(mesh, set);
 }
 
 /// What a primitive makes of its vertices.
@@ -133,7 +153,7 @@ fn triangles(corners: &[u32], mode: Mode) -> Vec<[u32; 3]> {
             let hub = corners.first().copied().unwrap_or_default();
             corners.windows(2).skip(1).map(|rim| [hub, rim[0], rim[1]]).collect()
         }
-        _ => corners.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect(),
+        _ => corners.as_chunks::<3>().0.to_vec(),
     }
 }
 
@@ -147,7 +167,12 @@ fn area_vector(positions: &[Vec3], [a, b, c]: [u32; 3]) -> DVec3 {
 fn flatten(mesh: &mut Mesh) {
     let own = mesh.indices.len() == mesh.positions.len() && mesh.indices.iter().copied().eq(0..);
     if !own {
-        mesh.positions = mesh.indices.iter().map(|&corner| mesh.positions[corner as usize]).collect();
+        let indices = std::mem::take(&mut mesh.indices);
+        mesh.positions = at(&mesh.positions, &indices);
+        for coords in &mut mesh.tex_coords {
+            *coords = at(coords, &indices);
+        }
+        mesh.colors = at(&mesh.colors, &indices);
         mesh.indices = (0..mesh.positions.len() as u32).collect();
     }
     mesh.normals.reserve_exact(mesh.positions.len());
@@ -155,6 +180,11 @@ fn flatten(mesh: &mut Mesh) {
         let normal = area_vector(&mesh.positions, *triangle).normalize().as_vec3();
         mesh.normals.extend([normal; 3]);
     }
+}
+
+/// The values at some indices; none where there are no values.
+fn at<T: Copy>(values: &[T], indices: &[u32]) -> Vec<T> {
+    if values.is_empty() { Vec::new() } else { indices.iter().map(|&index| values[index as usize]).collect() }
 }
 
 /// Makes normals unit, and those of no length the mean of their triangles'.

@@ -1,6 +1,6 @@
 //! Lights, views and settings of scenes made in memory.
 
-mod emitter;
+mod emission;
 mod islands;
 mod settings;
 mod shapes;

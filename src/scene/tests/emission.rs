@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::shapes::{grid, scene};
-use crate::scene::emitter::radiance;
+use crate::scene::emission::radiance;
 use crate::scene::{Image, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap};
 
 /// The inverse of sRGB's curve, by hand.

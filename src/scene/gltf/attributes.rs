@@ -1,0 +1,126 @@
+//! Which attributes of a primitive are kept, and what they read.
+
+use glam::{Vec2, Vec3, Vec4};
+use gltf::json::accessor::Type;
+use gltf::json::mesh::{Primitive, Semantic};
+use gltf::json::validation::Checked::Valid;
+
+use super::Fault;
+use super::accessor::{Accessors, Numbers};
+use crate::scene::notices::Notices;
+use crate::scene::{Material, TextureSlot};
+
+const WHITE: [u16; 4] = [u16::MAX; 4];
+
+/// The accessors of a primitive's attributes, of those that its material needs.
+pub struct Attributes {
+    pub positions: usize,
+    pub normals: Option<usize>,
+    /// Only with normals of the file's: tangents are meaningless beside others.
+    tangents: Option<usize>,
+    tex_coords: [Option<usize>; 2],
+    colors: Option<usize>,
+    /// Where the normal texture's coordinates are, if there is one.
+    pub normal_set: Option<usize>,
+}
+
+impl Attributes {
+    /// None without positions. `place` is the primitive's, for notices.
+    pub fn of(primitive: &Primitive, material: &Material, notices: &mut Notices, place: &str) -> Option<Self> {
+        let get = |semantic| primitive.attributes.get(&Valid(semantic)).map(|accessor| accessor.value());
+        for semantic in primitive.attributes.keys() {
+            if let Valid(semantic @ (Semantic::TexCoords(2..) | Semantic::Colors(1..))) = semantic {
+                notices.add("vertex attributes that are not drawn", || format!("{} of {place}", semantic.to_string()));
+            }
+        }
+        let needs = |set: usize| material.textures.iter().flatten().any(|texture| texture.tex_coord == set);
+        let tex_coords = [0, 1].map(|set| {
+            let accessor = needs(set).then(|| get(Semantic::TexCoords(set as u32)))?;
+            if accessor.is_none() {
+                let kind = "texture coordinates that a material needs and the mesh lacks are taken to be 0";
+                notices.add(kind, || format!("TEXCOORD_{set} of {place}"));
+            }
+            accessor
+        });
+        let (normals, normal_set) =
+            (get(Semantic::Normals), material.texture(TextureSlot::Normal).map(|texture| texture.tex_coord));
+        Some(Self {
+            positions: get(Semantic::Positions)?,
+            normals,
+            tangents: normals.and(normal_set).and_then(|_| get(Semantic::Tangents)),
+            tex_coords,
+            colors: get(Semantic::Colors(0)),
+            normal_set,
+        })
+    }
+
+    /// The number of vertices, after a check that all attributes have as many.
+    pub fn count(&self, accessors: &Accessors) -> Result<usize, Fault> {
+        let count = accessors.count(self.positions)?;
+        let [first, second] = self.tex_coords;
+        let others = [
+            ("normals", self.normals),
+            ("tangents", self.tangents),
+            ("texture coordinates", first),
+            ("texture coordinates", second),
+            ("colors", self.colors),
+        ];
+        for (name, accessor) in others {
+            let own = accessor.map_or(Ok(count), |accessor| accessors.count(accessor))?;
+            if own != count {
+                return Err(Fault::new(format_args!("has {count} positions and {own} {name}; export it again")));
+            }
+        }
+        Ok(count)
+    }
+
+    /// Bytes in memory for each vertex.
+    pub fn vertex_bytes(&self) -> usize {
+        let coords = self.tex_coords.iter().flatten().count() * size_of::<Vec2>();
+        let tangents = self.normal_set.map_or(0, |_| size_of::<Vec4>());
+        2 * size_of::<Vec3>() + coords + tangents + self.colors.map_or(0, |_| size_of_val(&WHITE))
+    }
+
+    /// Whether every triangle may be given vertices of its own.
+    pub fn may_split(&self) -> bool {
+        self.normals.is_none() || self.normal_set.is_some()
+    }
+
+    pub fn read_tex_coords(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<[Vec<Vec2>; 2], Fault> {
+        let read = |set: Option<usize>| {
+            set.map_or(Ok(Vec::new()), |set| accessors.read(set, Type::Vec2, Numbers::Quantized, used))
+        };
+        Ok([read(self.tex_coords[0])?, read(self.tex_coords[1])?])
+    }
+
+    pub fn read_tangents(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Option<Vec<Vec4>>, Fault> {
+        self.tangents.map(|tangents| accessors.read(tangents, Type::Vec4, Numbers::Signed, used)).transpose()
+    }
+
+    /// Colours and opacities; empty where all are 1.
+    pub fn read_colors(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<[u16; 4]>, Fault> {
+        let Some(colors) = self.colors else { return Ok(Vec::new()) };
+        let colors: Vec<Unorm> = if accessors.is_of(colors, Type::Vec3) {
+            accessors.read::<_, 3>(colors, Type::Vec3, Numbers::Unsigned, used)?
+        } else {
+            accessors.read::<_, 4>(colors, Type::Vec4, Numbers::Unsigned, used)?
+        };
+        let is_white = colors.iter().all(|color| color.0 == WHITE);
+        Ok(if is_white { Vec::new() } else { colors.into_iter().map(|color| color.0).collect() })
+    }
+}
+
+/// Numbers in [0, 1] (those outside are taken to its ends) as the nearest of 65536 steps.
+struct Unorm([u16; 4]);
+
+impl From<[f32; 4]> for Unorm {
+    fn from(color: [f32; 4]) -> Self {
+        Self(color.map(|number| (number.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16))
+    }
+}
+
+impl From<[f32; 3]> for Unorm {
+    fn from([r, g, b]: [f32; 3]) -> Self {
+        Self::from([r, g, b, 1.0])
+    }
+}

@@ -1,0 +1,71 @@
+//! Extensions that are read from the JSON itself.
+
+use gltf::json::Root;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use super::Fault;
+use super::nodes::node_label;
+use crate::scene::notices::Notices;
+
+/// Those that a file may require, beside those of materials.
+pub const SERVED: [&str; 4] =
+    ["KHR_mesh_quantization", "KHR_lights_punctual", "EXT_lights_area", "KHR_materials_variants"];
+
+/// Codecs that pack what buffers hold.
+const CODECS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// What the file as a whole holds under an extension's name.
+pub fn of_root<T: DeserializeOwned>(root: &Root, name: &str) -> Result<Option<T>, Fault> {
+    root.extensions
+        .as_ref()
+        .and_then(|extensions| extensions.others.get(name))
+        .map(|value| parse(value, name))
+        .transpose()
+}
+
+fn parse<T: DeserializeOwned>(value: &Value, name: &str) -> Result<T, Fault> {
+    let wrong =
+        |error| Fault::at(format_args!("extensions.{name}"), format_args!("{error}; correct it or export again"));
+    serde_path_to_error::deserialize(value).map_err(wrong)
+}
+
+/// A node's reference to a light.
+#[derive(Deserialize)]
+struct Reference {
+    light: usize,
+}
+
+/// Which of `count` lights of an extension each node bears, in the scene or not.
+pub fn lights_of_nodes(root: &Root, name: &str, count: usize) -> Result<Vec<Option<usize>>, Fault> {
+    let nodes = root.nodes.iter().enumerate().map(|(index, node)| {
+        let Some(value) = node.extensions.as_ref().and_then(|extensions| extensions.others.get(name)) else {
+            return Ok(None);
+        };
+        let Reference { light } = parse(value, name).map_err(|fault| Fault::at(node_label(root, index), fault))?;
+        let missing = format_args!("there is no light {light} in {name}; export the file again");
+        (light < count).then_some(Some(light)).ok_or_else(|| Fault::at(node_label(root, index), missing))
+    });
+    nodes.collect()
+}
+
+/// Notes what of the file as a whole and of its nodes is not drawn.
+pub fn note(root: &Root, notices: &mut Notices) {
+    if root.extensions.as_ref().is_some_and(|extensions| extensions.others.contains_key("KHR_materials_variants")) {
+        notices.add("material variants: the default one is drawn", || "KHR_materials_variants".to_owned());
+    }
+    for (index, node) in root.nodes.iter().enumerate() {
+        for name in node.extensions.iter().flat_map(|extensions| extensions.others.keys()) {
+            if !SERVED.contains(&name.as_str()) {
+                notices
+                    .add("node extensions that are passed over", || format!("{name} of {}", node_label(root, index)));
+            }
+        }
+    }
+}
+
+/// The extension that packs a buffer's data, if there is one.
+pub fn codec(extensions: &Map<String, Value>) -> Option<&'static str> {
+    CODECS.into_iter().find(|&name| extensions.contains_key(name))
+}

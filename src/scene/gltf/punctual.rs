@@ -1,0 +1,129 @@
+//! KHR_lights_punctual: lights without extent.
+
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use glam::{DVec3, Vec3};
+use gltf::json::Root;
+use serde::Deserialize;
+
+use super::nodes::{Placed, node_label};
+use super::{Fault, assembly, cut, extensions};
+use crate::scene::error::label;
+use crate::scene::notices::Notices;
+use crate::scene::{PunctualKind, PunctualLight};
+
+const EXTENSION: &str = "KHR_lights_punctual";
+/// The most that light: every shaded point visits each.
+const LIGHTS_MAX: usize = 1024;
+
+#[derive(Deserialize)]
+struct Lights {
+    lights: Vec<Light>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Light {
+    name: Option<String>,
+    #[serde(default = "white")]
+    color: [f32; 3],
+    #[serde(default = "one")]
+    intensity: f32,
+    r#type: String,
+    range: Option<f32>,
+    #[serde(default)]
+    spot: Spot,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Spot {
+    inner_cone_angle: f32,
+    outer_cone_angle: f32,
+}
+
+impl Default for Spot {
+    fn default() -> Self {
+        Self { inner_cone_angle: 0.0, outer_cone_angle: FRAC_PI_4 }
+    }
+}
+
+pub fn white() -> [f32; 3] {
+    [1.0; 3]
+}
+
+pub fn one() -> f32 {
+    1.0
+}
+
+/// Colour times intensity, or what is wrong with one of them.
+pub fn radiance(color: [f32; 3], intensity: f32) -> Result<Vec3, String> {
+    let is_light = |value: &f32| value.is_finite() && *value >= 0.0;
+    if let Some(value) = color.iter().find(|value| !is_light(value)) {
+        return Err(format!("color holds {value}; give finite numbers from 0 up"));
+    }
+    let radiance = Vec3::from(color) * intensity;
+    if !is_light(&intensity) || !radiance.is_finite() {
+        return Err(format!("intensity is {intensity}; give a finite number from 0 up"));
+    }
+    Ok(radiance)
+}
+
+impl Light {
+    /// The light at the origin, or what is wrong with it.
+    fn read(&self) -> Result<PunctualLight, String> {
+        let intensity = radiance(self.color, self.intensity)?;
+        let range = self.range.unwrap_or(f32::INFINITY);
+        if range.is_nan() || range <= 0.0 || self.range == Some(f32::INFINITY) {
+            return Err(format!("range is {range}; give a finite number above 0"));
+        }
+        let kind = match self.r#type.as_str() {
+            "point" => PunctualKind::Point { range },
+            "directional" => PunctualKind::Directional,
+            "spot" => {
+                let &Spot { inner_cone_angle: inner, outer_cone_angle: outer } = &self.spot;
+                if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2) {
+                    let what = "give 0 <= innerConeAngle < outerConeAngle <= pi / 2";
+                    return Err(format!("innerConeAngle is {inner} and outerConeAngle {outer}; {what}"));
+                }
+                PunctualKind::Spot { range, inner, outer }
+            }
+            _ => return Err("type is none of directional, point, spot; give one of them".to_owned()),
+        };
+        let name = cut(self.name.as_deref().unwrap_or_default());
+        Ok(PunctualLight { name, kind, intensity, position: Vec3::ZERO, direction: Vec3::NEG_Z })
+    }
+}
+
+/// The lights at the scene's nodes, named as in the file's list, else as their nodes. All are checked, placed or not.
+pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<PunctualLight>, Fault> {
+    let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
+    let read = |(index, light): (usize, &Light)| {
+        let place = format_args!("{EXTENSION}: {}", label("light", index, light.name.as_deref())).to_string();
+        light.read().map_err(|what| Fault::at(place, what))
+    };
+    let lights: Vec<PunctualLight> = lights.iter().enumerate().map(read).collect::<Result<_, _>>()?;
+    let of_nodes = extensions::lights_of_nodes(root, EXTENSION, lights.len())?;
+    let mut found = Vec::new();
+    for &Placed { node, world_from_node, .. } in placed {
+        let Some(light) = of_nodes[node].map(|light| &lights[light]).filter(|light| light.intensity != Vec3::ZERO)
+        else {
+            continue;
+        };
+        assembly::check_reach(world_from_node, [Vec3::ZERO]).map_err(|what| Fault::at(node_label(root, node), what))?;
+        let direction = world_from_node.transform_vector3(DVec3::NEG_Z).try_normalize();
+        if found.len() == LIGHTS_MAX {
+            notices.add("punctual lights past 1024 light nothing", || node_label(root, node));
+        } else if let Some(direction) = direction {
+            let mut light = light.clone();
+            if light.name.is_empty() {
+                light.name = cut(root.nodes[node].name.as_deref().unwrap_or_default());
+            }
+            let position = world_from_node.translation.as_vec3();
+            found.push(PunctualLight { position, direction: direction.as_vec3(), ..light });
+        } else {
+            notices.add("lights without a direction, scaled to nothing, are left out", || node_label(root, node));
+        }
+    }
+    Ok(found)
+}
