@@ -7,7 +7,7 @@
 //! - The third row of the inverse matrix is (0, 0, 1), so that what was clipped at the horizon for one lobe is clipped for all.
 //! - mu = 0 has the shapes of mu = [`GRAZING_MU`].
 //! - roughness = 0 is that of alpha = [`LEAST_ALPHA`](crate::physics::microfacet::LEAST_ALPHA).
-//! - albedo and Fresnel share are not those at the nodes but what interpolates best: see [`nodes`](super::nodes).
+//! - albedo and Fresnel share are not those at the nodes but what interpolates best: see [`nodes`].
 
 use super::ggx_report::GgxReport;
 use super::nodes;
@@ -42,7 +42,7 @@ pub fn cosine(t: f64) -> f64 {
 /// `progress` is told (done, all) steps, from any of the working threads.
 pub fn ggx(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (GgxTable, GgxReport) {
     let points = (resolution - 1) * PER_CELL;
-    let (done, all) = (AtomicUsize::new(0), resolution + points + GgxReport::steps(resolution));
+    let (done, all) = (AtomicUsize::new(0), resolution + points + GgxReport::STEPS);
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
     let columns: Vec<Vec<Fit>> = (0..resolution)
         .into_par_iter()

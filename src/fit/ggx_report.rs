@@ -21,9 +21,7 @@ pub struct GgxReport {
     pub resolution: usize,
     /// At the nodes, of the fit.
     pub nodes: Shapes,
-    /// At the centres of the table's cells, of what is looked up.
-    pub centres: Lookups,
-    /// The same at the centres of 48 x 48 cells.
+    /// Of what is looked up at the centres of 48 x 48 cells, which fall anywhere in the table's.
     pub spread: Lookups,
     /// Of what is looked up, weighted by R, on the grid on which tables are compared.
     pub compared: f64,
@@ -57,23 +55,20 @@ struct Lookup {
 }
 
 impl GgxReport {
-    /// `step` is told of each roughness that is seen, [`GgxReport::steps`] in all, from any of the working threads.
+    /// `step` is told of each roughness that is seen, [`GgxReport::STEPS`] in all, from any of the working threads.
     pub(super) fn new<'a>(table: &GgxTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let nodes = Shapes::new(fits.map(|fit| (fit.albedo, fit.distance)).collect());
         let resolution = table.size()[0];
         let mus = |t: Vec<f64>| -> Vec<f64> { t.into_iter().map(|t| cosine(t).max(GRAZING_MU)).collect() };
-        let [centres, spread] = [resolution - 1, SPREAD]
-            .map(|cells| Lookups::new(&lookups(table, &centres(cells), &mus(centres(cells)), &step)));
+        let spread = Lookups::new(&lookups(table, &centres(SPREAD), &mus(centres(SPREAD)), &step));
         let compared: Vec<f64> = (0..COMPARED).map(|k| k as f64 / (COMPARED - 1) as f64).collect();
         let compared = lookups(table, &compared[1..], &mus(compared.clone()), &step);
         let compared = Shapes::new(compared.iter().map(|lookup| (lookup.truth, lookup.distance)).collect()).weighted;
-        Self { resolution, nodes, centres, spread, compared }
+        Self { resolution, nodes, spread, compared }
     }
 
     /// How many roughnesses a report sees.
-    pub(super) fn steps(resolution: usize) -> usize {
-        resolution - 1 + SPREAD + COMPARED - 1
-    }
+    pub(super) const STEPS: usize = SPREAD + COMPARED - 1;
 
     /// What stands at the head of the table's .csv, a string a line: what it is, its axes, its errors, how it was made.
     pub fn header(&self) -> Vec<String> {

@@ -23,7 +23,7 @@ fn the_table_is_what_the_code_makes() {
     let text = include_str!("../../tables/ggx_ltc.csv");
     let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
     assert_eq!(header, report.header(), "the errors at the head of the table");
-    assert!(report.nodes.weighted < 0.093 && report.centres.shapes.weighted < 0.0925, "{report}");
+    assert!(report.nodes.weighted < 0.093 && report.spread.shapes.weighted < 0.0925, "{report}");
     assert!(report.spread.albedo.mean < 0.0005 && report.spread.fresnel.mean < 0.0005, "{report}");
     assert!(report.spread.albedo.max < 0.03 && report.spread.fresnel.max < 0.03, "{report}");
     assert!(report.compared < 0.1235, "{report}");
