@@ -21,7 +21,8 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         let instance = &scene.instances[index];
         let mesh = &scene.meshes[instance.mesh];
         let material = &scene.materials[mesh.material];
-        if material.emission == Vec3::ZERO {
+        let radiance = emitter::radiance(scene, index);
+        if radiance == Vec3::ZERO {
             continue;
         }
         triangles += mesh.indices.len() / 3;
@@ -41,7 +42,7 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         } else if own > 0 {
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
-            let (radiance, two_sided) = (emitter::radiance(scene, index), material.double_sided);
+            let two_sided = material.double_sided;
             scene.lights.push(Light { name, radiance, two_sided, polygons, instance: index });
         }
     }
