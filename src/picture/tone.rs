@@ -46,14 +46,14 @@ fn neutral(color: [f32; 3]) -> [f32; 3] {
 /// that bright colours meet white; the second moves them out again, in the picture's encoding; the third takes linear Rec. 2020
 /// back. Insets and outsets are those of Blender 4's OCIO configuration (as in Filament's ToneMapper and three.js).
 const AGX_INSET: [[f32; 3]; 3] =
-    [[0.544_815, 0.373_787, 0.081_398], [0.140_417, 0.754_138, 0.105_445], [0.088_810, 0.178_872, 0.732_318]];
+    [[0.544_815, 0.373_787, 0.081_398], [0.140_417, 0.754_138, 0.105_445], [0.088_81, 0.178_872, 0.732_318]];
 const AGX_OUTSET: [[f32; 3]; 3] = [
     [1.127_100_6, -0.110_606_64, -0.016_493_94],
     [-0.141_329_76, 1.157_823_7, -0.016_493_94],
     [-0.141_329_76, -0.110_606_64, 1.251_936_4],
 ];
 const REC709_FROM_REC2020: [[f32; 3]; 3] =
-    [[1.660_491, -0.587_641, -0.072_850], [-0.124_550, 1.132_899, -0.008_349], [-0.018_151, -0.100_579, 1.118_730]];
+    [[1.660_491, -0.587_641, -0.072_85], [-0.124_55, 1.132_899, -0.008_349], [-0.018_151, -0.100_579, 1.118_73]];
 
 /// AgX's default look: log2 of the radiance from 12.47393 stops below 1 to 4.026069 above, a sigmoid curve (B. Wrensch's fit of
 /// sixth degree, whose mean squared error is 3.7e-6), which gives a picture encoded by a power of 2.2.

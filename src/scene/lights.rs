@@ -21,7 +21,8 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         let instance = &scene.instances[index];
         let mesh = &scene.meshes[instance.mesh];
         let material = &scene.materials[mesh.material];
-        if material.emission == Vec3::ZERO {
+        let radiance = emission::radiance(scene, index);
+        if radiance == Vec3::ZERO {
             continue;
         }
         triangles += mesh.indices.len() / 3;
@@ -41,8 +42,8 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         } else if own > 0 {
             corners += own;
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
-            let (radiance, two_sided) = (emission::radiance(scene, index), material.double_sided);
             let texture_mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
+            let two_sided = material.double_sided;
             scene.lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
         }
     }

@@ -53,7 +53,7 @@ fn navigate(ui: &mut Ui, picture: Rect, state: &mut State) -> Change {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Instance, Material, Mesh, Projection, Scene, Sheen};
+    use crate::scene::{Camera, Instance, Layering, Material, Mesh, Overrides, Projection, Scene, Sheen};
     use egui::{Event, Modifiers, Pos2, RawInput, ViewportId, pos2, vec2};
     use glam::{Mat4, Vec3};
 
@@ -101,15 +101,31 @@ mod tests {
         passes.into_iter().map(|events| pass(context, state, events).0.change).max().unwrap()
     }
 
+    /// The state with all that the panel can show of materials, whose names are the same.
+    fn full_state() -> State {
+        let mut state = state();
+        state.scene.materials.push(state.scene.materials[0].clone());
+        let manual = Overrides { layering: Some(Layering::Manual(0.3)), ..Overrides::default() };
+        state.settings.material_overrides.insert(0, manual);
+        state.settings.ambient = Vec3::new(0.1, 0.2, 0.3);
+        state
+    }
+
     #[test]
     fn rests_while_nothing_happens() {
-        let (context, mut state) = (egui::Context::default(), state());
+        rests(state());
+        rests(full_state());
+    }
+
+    fn rests(mut state: State) {
+        let (context, before) = (egui::Context::default(), state.settings.clone());
         for _ in 0..10 {
             pass(&context, &mut state, vec![]);
         }
         let (layout, delay) = pass(&context, &mut state, vec![]);
         assert_eq!(layout.change, Change::None);
         assert!(delay > 3600.0, "the next pass is wanted in {delay} s");
+        assert_eq!(state.settings, before);
     }
 
     #[test]
@@ -157,5 +173,33 @@ mod tests {
         assert!(roughness(&state) > Some(0.6), "{:?}", roughness(&state));
         state.reset();
         assert_eq!(roughness(&state), Some(0.3));
+    }
+
+    #[test]
+    fn what_is_set_for_a_material_is_for_it_alone() {
+        let (context, mut state) = (egui::Context::default(), full_state());
+        let (before, scene) = (state.settings.clone(), state.scene.materials.clone());
+        pass(&context, &mut state, vec![]);
+        let mut changes = Vec::new();
+        for y in (0..400).step_by(4).map(|y| y as f32) {
+            let last = state.settings.clone();
+            let change = drag(&context, &mut state, PointerButton::Primary, pos2(1120.0, y), pos2(1150.0, y));
+            if state.settings.layering_of(0, &scene[0]) != last.layering_of(0, &scene[0]) {
+                changes.push(change);
+            }
+            if state.settings.ambient != last.ambient {
+                assert_eq!(change, Change::Drawn);
+                changes.push(change);
+            }
+        }
+        assert!(changes.contains(&Change::Scene) && changes.contains(&Change::Drawn), "{changes:?}");
+        assert!(matches!(state.settings.layering_of(0, &scene[0]), Layering::Manual(share) if share != 0.3));
+        assert_eq!(state.settings.overrides_of(1), before.overrides_of(1));
+        assert_eq!(state.scene.materials[1], scene[1]);
+        // The light keeps its hue.
+        let hue = state.settings.ambient / state.settings.ambient.max_element();
+        assert!(hue.abs_diff_eq(before.ambient / 0.3, 1e-4), "{hue}");
+        state.reset();
+        assert_eq!((state.settings.material_overrides.len(), state.settings.ambient), (0, Vec3::ZERO));
     }
 }

@@ -4,6 +4,7 @@
 
 mod frame;
 mod layout;
+mod material;
 mod orbit;
 mod panel;
 mod state;

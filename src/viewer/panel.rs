@@ -1,14 +1,17 @@
 //! The panel beside the picture.
 
-use egui::{Align, Layout, Ui};
+use egui::Ui;
 use glam::Vec3;
 
+use super::material;
 use super::state::{Change, State};
 use crate::picture::ToneCurve;
-use crate::scene::Sheen;
 
 /// Points; wide enough for the longest row.
 pub const WIDTH: f32 = 270.0;
+
+/// The strongest ambient light that can be set.
+const AMBIENT_MAX: f32 = 10.0;
 
 /// What the user did with the panel.
 #[derive(Default)]
@@ -24,7 +27,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Outcome {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
         ui.separator();
-        let change = sheen(ui, state).max(picture(ui, state)).max(lights(ui, state));
+        let change = material::show(ui, state).max(picture(ui, state)).max(lights(ui, state));
         outcome.change = change;
         ui.separator();
         ui.horizontal(|ui| {
@@ -44,39 +47,6 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Outcome {
     outcome
 }
 
-fn sheen(ui: &mut Ui, state: &mut State) -> Change {
-    ui.strong("Sheen");
-    if state.scene.materials.len() > 1 {
-        let names: Vec<String> = state.scene.materials.iter().map(|material| material.name.clone()).collect();
-        let width = ui.available_width() - 60.0;
-        let list = egui::ComboBox::from_label("material").width(width).truncate();
-        list.show_index(ui, &mut state.material, names.len(), |index| names[index].clone());
-    }
-    let before = state.scene.materials[state.material].sheen;
-    let mut sheen = before.unwrap_or(Sheen::new(Vec3::ZERO, 0.5));
-    ui.label("alpha");
-    ui.horizontal(|ui| {
-        ui.label("fuzz");
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label("dust");
-            // Its box, and room at the panel's edge.
-            let value_width = 56.0;
-            ui.spacing_mut().slider_width = ui.available_width() - value_width;
-            slider(ui, egui::Slider::new(&mut sheen.roughness, 0.0..=1.0).fixed_decimals(2));
-        });
-    });
-    ui.horizontal(|ui| {
-        ui.label("C_sheen");
-        color_button(ui, &mut sheen.color);
-    });
-    // A material that has no sheen keeps none until a colour is given to it.
-    if Some(sheen) == before || (before.is_none() && sheen.color == Vec3::ZERO) {
-        return Change::None;
-    }
-    state.scene.materials[state.material].sheen = Some(sheen);
-    Change::Scene
-}
-
 fn picture(ui: &mut Ui, state: &mut State) -> Change {
     ui.separator();
     ui.strong("Picture");
@@ -88,26 +58,57 @@ fn picture(ui: &mut Ui, state: &mut State) -> Change {
     ui.horizontal(|ui| {
         ui.label("tone curve");
         ui.selectable_value(&mut state.tone, ToneCurve::Neutral, "neutral");
+        ui.selectable_value(&mut state.tone, ToneCurve::Agx, "AgX");
         ui.selectable_value(&mut state.tone, ToneCurve::None, "none");
     });
+    let ambient_before = state.settings.ambient;
+    ambient(ui, &mut state.settings.ambient);
     let lobes_before = state.settings.lobes;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let lobes = &mut state.settings.lobes;
         ui.checkbox(&mut lobes.sheen, "sheen");
         ui.checkbox(&mut lobes.diffuse, "diffuse");
+        ui.checkbox(&mut lobes.specular, "specular");
         ui.checkbox(&mut lobes.emission, "emission");
     });
     let visible_before = state.settings.lights_visible;
     ui.checkbox(&mut state.settings.lights_visible, "lights visible");
     if visible_before != state.settings.lights_visible {
         Change::Scene
-    } else if lobes_before != state.settings.lobes || exposure_before != state.settings.exposure {
+    } else if (lobes_before, exposure_before, ambient_before)
+        != (state.settings.lobes, state.settings.exposure, state.settings.ambient)
+    {
         Change::Drawn
     } else if tone_before != state.tone {
         Change::Shown
     } else {
         Change::None
     }
+}
+
+/// Strength and hue of what arrives from everywhere.
+fn ambient(ui: &mut Ui, radiance: &mut Vec3) {
+    let before = *radiance;
+    let (mut strength, mut color) = strength_and_color(before);
+    ui.horizontal(|ui| {
+        ui.label("ambient");
+        let value = egui::Slider::new(&mut strength, 0.0..=AMBIENT_MAX).logarithmic(true).smallest_positive(1e-3);
+        slider(ui, value);
+        color_button(ui, &mut color);
+    });
+    *radiance = changed_radiance(before, strength, color);
+}
+
+/// A radiance as its greatest channel and the hue of it, whose greatest channel is 1. The hue of nothing is white.
+fn strength_and_color(radiance: Vec3) -> (f32, Vec3) {
+    let strength = radiance.max_element();
+    (strength, if strength > 0.0 { radiance / strength } else { Vec3::ONE })
+}
+
+/// The radiance of this strength and hue; as it was where it differs by no more than a round trip takes.
+fn changed_radiance(before: Vec3, strength: f32, color: Vec3) -> Vec3 {
+    let radiance = strength * color / color.max_element().max(1e-6);
+    if (radiance - before).abs().max_element() > 1e-5 * strength.max(1e-6) { radiance } else { before }
 }
 
 fn lights(ui: &mut Ui, state: &mut State) -> Change {
@@ -125,9 +126,7 @@ fn lights(ui: &mut Ui, state: &mut State) -> Change {
 
 fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
     let before = state.scene.lights[index].radiance;
-    let mut strength = before.max_element();
-    // The hue of a light that is turned off: what it was is not kept, so white.
-    let mut color = if strength > 0.0 { before / strength } else { Vec3::ONE };
+    let (mut strength, mut color) = strength_and_color(before);
     ui.horizontal(|ui| {
         ui.label("radiance");
         let speed = 0.02 * strength.max(0.05);
@@ -143,10 +142,9 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
             ui.add(egui::DragValue::new(coordinate).range(-1e10..=1e10).speed(0.01).fixed_decimals(2));
         }
     });
-    let radiance = strength * color / color.max_element().max(1e-6);
+    let radiance = changed_radiance(before, strength, color);
     let mut change = Change::None;
-    // Beyond a round trip through the colour's normalisation.
-    if (radiance - before).abs().max_element() > 1e-5 * strength.max(1e-6) {
+    if radiance != before {
         state.scene.lights[index].radiance = radiance;
         change = Change::Scene;
     }
@@ -158,12 +156,12 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
 }
 
 /// A slider that changes nothing until it is touched: what a file says is not rounded.
-fn slider(ui: &mut Ui, slider: egui::Slider) {
+pub fn slider(ui: &mut Ui, slider: egui::Slider) {
     ui.add(slider.clamping(egui::SliderClamping::Edits));
 }
 
 /// A button that opens a colour picker on a linear Rec. 709 colour in [0, 1].
-fn color_button(ui: &mut Ui, color: &mut Vec3) {
+pub fn color_button(ui: &mut Ui, color: &mut Vec3) {
     let mut channels = color.to_array();
     if ui.color_edit_button_rgb(&mut channels).changed() {
         *color = Vec3::from_array(channels).clamp(Vec3::ZERO, Vec3::ONE);

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::orbit::Orbit;
 use crate::picture::ToneCurve;
-use crate::scene::{Scene, Settings, Sheen};
+use crate::scene::{Instance, Light, Material, Scene, Settings, Sheen};
 
 /// What a change asks for, from least to most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,13 +13,13 @@ pub enum Change {
     None,
     /// The tone curve: what was drawn is shown anew.
     Shown,
-    /// The view, the exposure, or which lobes are summed: the scene is drawn anew.
+    /// The view, the exposure, the ambient light, or which lobes are summed: the scene is drawn anew.
     Drawn,
-    /// Materials or lights: they are taken over by the device first.
+    /// Materials, what the settings change in them, or lights: they are taken over by the device first.
     Scene,
 }
 
-/// The scene as it is now, and as it was loaded.
+/// The scene as it is now, and what it was when loaded.
 pub struct State {
     /// The file's name.
     pub name: String,
@@ -33,7 +33,14 @@ pub struct State {
     pub frame_time: Option<Duration>,
     /// What the last command did: a screenshot's name, or why there is none.
     pub message: String,
-    loaded: Scene,
+    loaded: Loaded,
+}
+
+/// What of the scene the user may change, as it was.
+struct Loaded {
+    materials: Vec<Material>,
+    lights: Vec<Light>,
+    instances: Vec<Instance>,
 }
 
 impl State {
@@ -49,13 +56,20 @@ impl State {
             material: scene.materials.iter().position(|material| has_sheen(material.sheen)).unwrap_or(0),
             frame_time: None,
             message: String::new(),
-            loaded: scene.clone(),
+            loaded: Loaded {
+                materials: scene.materials.clone(),
+                lights: scene.lights.clone(),
+                instances: scene.instances.clone(),
+            },
             scene,
         }
     }
 
     /// Everything as it was loaded.
     pub fn reset(&mut self) {
-        *self = Self { frame_time: self.frame_time, ..Self::new(&self.name, self.loaded.clone()) };
+        let mut scene = std::mem::take(&mut self.scene);
+        let Loaded { materials, lights, instances } = &self.loaded;
+        (scene.materials, scene.lights, scene.instances) = (materials.clone(), lights.clone(), instances.clone());
+        *self = Self { frame_time: self.frame_time, ..Self::new(&self.name, scene) };
     }
 }

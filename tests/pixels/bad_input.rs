@@ -45,6 +45,15 @@ fn flags_out_of_range() {
         ("--exposure 1e9", "--exposure"),
         ("--tonemap filmic", "--tonemap"),
         ("--lobes shadow", "--lobes"),
+        ("--ambient 1,1", "--ambient"),
+        ("--ambient -1,0,0", "--ambient"),
+        ("--layering stacked", "--layering"),
+        ("--layering manual=2", "--layering"),
+        ("--roughness-map cube", "--roughness-map"),
+        ("--sheen-model slab", "--sheen-model"),
+        ("--set felt", "MATERIAL.KEY=VALUE"),
+        ("--set felt.alpha=2", "[0,1]"),
+        ("--set felt.hue=2", "the keys are alpha"),
         ("--lights-visible maybe", "--lights-visible"),
         ("--msaa 2", "--msaa"),
         ("--nonsense", "--nonsense"),
@@ -70,6 +79,8 @@ fn what_the_scene_or_the_device_has_not() {
     let bench = Bench::new();
     refuse_flags(&bench, "--camera behind", 2, "behind");
     refuse_flags(&bench, "--camera 7", 2, "7");
+    refuse_flags(&bench, "--set silk.alpha=0.5", 2, "silk");
+    refuse_flags(&bench, "--set 7.alpha=0.5", 2, "no such material");
     refuse_flags(&bench, "--size 1000000x2", 2, "1000000");
     refuse_flags(&bench, "--size 2x1000000", 2, "1000000");
     refuse_flags(&bench, "--adapter nosuch", 3, "nosuch");

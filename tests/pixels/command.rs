@@ -60,6 +60,7 @@ fn a_shown_file_is_the_linear_one_shown() {
         ("", 0.0, ToneCurve::Neutral),
         ("--exposure -1.5 --tonemap none", -1.5, ToneCurve::None),
         ("--exposure 2 --tonemap neutral", 2.0, ToneCurve::Neutral),
+        ("--exposure 1 --tonemap agx", 1.0, ToneCurve::Agx),
     ] {
         bench.run(&format!("render scene.glb -o shown.png --size 96x64 --msaa 1 {flags}"));
         let (shown, expected) = (png(&bench, "shown.png"), linear.display(exposure, tone));
@@ -142,7 +143,21 @@ fn help_and_version_are_given() {
     }
     assert_eq!(bench.run("--version").stdout, format!("velour {}\n", env!("CARGO_PKG_VERSION")));
     let render = bench.run("render --help").stdout;
-    for flag in ["--size", "--camera", "--alpha", "--sheen-color", "--sheen-table", "--lobes", "--lights-visible"] {
+    for flag in [
+        "--size",
+        "--camera",
+        "--alpha",
+        "--sheen-color",
+        "--set",
+        "--layering",
+        "--roughness-map",
+        "--sheen-model",
+        "--ambient",
+        "--sheen-table",
+        "--lobes",
+        "--lights-visible",
+        "--tonemap",
+    ] {
         assert!(render.contains(flag), "no {flag} in {render}");
     }
 }

@@ -40,6 +40,13 @@ struct Encoded<'a> {
     size: [u32; 2],
 }
 
+impl Encoded<'_> {
+    /// Whether it will be reduced.
+    fn is_large(&self) -> bool {
+        kept_size(self.size) != self.size
+    }
+}
+
 /// Decodes these of the file's images, in this order.
 pub fn read(sources: &Sources, indices: &[usize], notices: &mut Notices) -> Result<Vec<Image>, Fault> {
     let mut files = buffers::Files::new();
@@ -48,30 +55,30 @@ pub fn read(sources: &Sources, indices: &[usize], notices: &mut Notices) -> Resu
         let bytes = sources.fetch(index, &mut files).map_err(|fault| Fault::at(sources.label(index), fault))?;
         fetched.push((index, bytes));
     }
-    let mut encoded = Vec::with_capacity(indices.len());
+    let heads = fetched.iter().map(|(index, bytes)| head(sources, *index, bytes)).collect::<Result<Vec<_>, _>>()?;
+    check_texels(&heads)?;
+    for image in heads.iter().filter(|image| image.is_large()) {
+        notices.add("images of more than 8192 texels a side are reduced", || image.place.clone());
+    }
+    // Large ones one after the other: each takes several times as much while it is decoded.
+    let decode_some =
+        |large: bool| move |image: &Encoded| if image.is_large() == large { decode(image).map(Some) } else { Ok(None) };
+    let large = heads.iter().map(decode_some(true)).collect::<Result<Vec<_>, _>>()?;
+    let small = heads.par_iter().map(decode_some(false)).collect::<Result<Vec<_>, _>>()?;
+    Ok(large.into_iter().zip(small).filter_map(|(large, small)| large.or(small)).collect())
+}
+
+fn check_texels(images: &[Encoded]) -> Result<(), Fault> {
     let mut texels = 0;
-    for (index, bytes) in &fetched {
-        let place = sources.label(*index);
-        let name = super::cut(sources.root.images[*index].name.as_deref().unwrap_or_default());
-        let (format, size) = head(bytes).map_err(|what| Fault::at(&place, what))?;
-        let kept = kept_size(size);
-        texels += u64::from(kept[0]) * u64::from(kept[1]);
-        if kept != size {
-            notices.add("images of more than 8192 texels a side are reduced", || place.clone());
-        }
+    for image in images {
+        let [width, height] = kept_size(image.size).map(u64::from);
+        texels += width * height;
         if texels > TEXELS_MAX {
             let what = format_args!("the images up to here hold {texels} texels, of {TEXELS_MAX} served; reduce them");
-            return Err(Fault::at(place, what));
+            return Err(Fault::at(&image.place, what));
         }
-        encoded.push(Encoded { place, name, bytes, format, size });
     }
-    // Large ones one after the other: each takes as much again, or more, while it is decoded.
-    let is_large = |image: &&Encoded| kept_size(image.size) != image.size;
-    let mut large = encoded.iter().filter(is_large).map(decode).collect::<Result<Vec<_>, _>>()?.into_iter();
-    let small: Vec<&Encoded> = encoded.iter().filter(|image| !is_large(image)).collect();
-    let mut small = small.into_par_iter().map(decode).collect::<Result<Vec<_>, _>>()?.into_iter();
-    let next = |image: &Encoded| if is_large(&image) { large.next() } else { small.next() };
-    Ok(encoded.iter().filter_map(next).collect())
+    Ok(())
 }
 
 impl<'a> Sources<'a> {
@@ -91,7 +98,14 @@ impl<'a> Sources<'a> {
 }
 
 /// Format and size, by the bytes alone: what a file says of its images is often wrong.
-fn head(bytes: &[u8]) -> Result<(ImageFormat, [u32; 2]), String> {
+fn head<'a>(sources: &Sources, index: usize, bytes: &'a [u8]) -> Result<Encoded<'a>, Fault> {
+    let place = sources.label(index);
+    let (format, size) = format_and_size(bytes).map_err(|what| Fault::at(&place, what))?;
+    let name = super::cut(sources.root.images[index].name.as_deref().unwrap_or_default());
+    Ok(Encoded { place, name, bytes, format, size })
+}
+
+fn format_and_size(bytes: &[u8]) -> Result<(ImageFormat, [u32; 2]), String> {
     let format = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => format,
         _ if bytes.starts_with(b"\xabKTX") => return Err("is a KTX image; export it as PNG, JPEG or WebP".to_owned()),

@@ -1,6 +1,7 @@
 //! Textures: samplers, and which image each one shows.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeSet, HashMap};
+use std::hash::Hash;
 
 use gltf::json::Root;
 use gltf::json::texture::{MagFilter, MinFilter, Sampler as JsonSampler, Texture as JsonTexture, WrappingMode};
@@ -13,7 +14,7 @@ use super::images::{self, Sources};
 use super::material_extensions::object;
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Filter, Sampler, Scene, Texture, Wrap};
+use crate::scene::{Filter, Sampler, Scene, Texture, TextureUse, Wrap};
 
 const WEBP: &str = "EXT_texture_webp";
 
@@ -27,38 +28,41 @@ struct Webp {
 /// in place of the file's. Those without an image that can be read are left out.
 pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
     let samplers = samplers(root)?;
-    let uses = scene.materials.iter_mut().flat_map(|material| &mut material.textures);
-    let uses: Vec<_> = uses.filter(|slot| slot.is_some()).collect();
-    // By the file's indices.
-    let mut textures: BTreeMap<usize, Option<usize>> = BTreeMap::new();
-    let mut images: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut known: HashMap<Texture, usize> = HashMap::new();
-    for texture in uses.iter().filter_map(|slot| slot.as_ref()) {
-        textures.insert(texture.texture, None);
+    let slots = scene.materials.iter().flat_map(|material| &material.textures);
+    let used: BTreeSet<usize> = slots.flatten().map(|used| used.texture).collect();
+    // The scene's index of each texture that is used, and of each image.
+    let (mut textures, mut images, mut known) = (HashMap::new(), Numbered::new(), Numbered::new());
+    for index in used {
+        if let Some(image) = image(root, index, notices)? {
+            let sampler = root.textures[index].sampler.map_or(Sampler::DEFAULT, |sampler| samplers[sampler.value()]);
+            textures.insert(index, known.number(Texture { image: images.number(image), sampler }));
+        }
     }
-    for (&index, place) in &mut textures {
-        let texture = &root.textures[index];
-        let Some(image) = image(root, index, notices)? else { continue };
-        let next = images.len();
-        let image = *images.entry(image).or_insert(next);
-        let sampler = texture.sampler.map_or(Sampler::DEFAULT, |sampler| samplers[sampler.value()]);
-        let texture = Texture { image, sampler };
-        *place = Some(*known.entry(texture).or_insert_with(|| {
-            scene.textures.push(texture);
-            scene.textures.len() - 1
-        }));
+    for slot in scene.materials.iter_mut().flat_map(|material| &mut material.textures) {
+        *slot = slot.and_then(|used| Some(TextureUse { texture: *textures.get(&used.texture)?, ..used }));
     }
-    for slot in uses {
-        *slot = slot.and_then(|mut used| {
-            used.texture = textures[&used.texture]?;
-            Some(used)
-        });
-    }
-    let mut files: Vec<(usize, usize)> = images.into_iter().map(|(file, index)| (index, file)).collect();
-    files.sort_unstable();
-    let files: Vec<usize> = files.into_iter().map(|(_, file)| file).collect();
-    scene.images = images::read(sources, &files, notices)?;
+    scene.textures = known.things;
+    scene.images = images::read(sources, &images.things, notices)?;
     Ok(())
+}
+
+/// Different things, numbered as they come.
+struct Numbered<T> {
+    things: Vec<T>,
+    numbers: HashMap<T, usize>,
+}
+
+impl<T: Copy + Eq + Hash> Numbered<T> {
+    fn new() -> Self {
+        Self { things: Vec::new(), numbers: HashMap::new() }
+    }
+
+    fn number(&mut self, thing: T) -> usize {
+        *self.numbers.entry(thing).or_insert_with(|| {
+            self.things.push(thing);
+            self.things.len() - 1
+        })
+    }
 }
 
 /// The image that a texture shows, if there is one that can be read.

@@ -137,7 +137,7 @@ fn every_texture_stands_in_its_slot() {
 /// The specification's own example: the lower left quadrant, turned a quarter.
 #[test]
 fn the_transform_of_the_specifications_example() {
-    let transform = json!({ "offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5] });
+    let transform = json!({ "offset": [0, 1], "rotation": std::f32::consts::FRAC_PI_2, "scale": [0.5, 0.5] });
     let info = json!({ "index": 0, "extensions": { "KHR_texture_transform": transform } });
     let texture = material(json!({ "emissiveTexture": info })).texture(TextureSlot::Emission).unwrap();
     for (from, to) in
