@@ -2,5 +2,6 @@
 
 mod islands;
 mod settings;
-mod shapes;
+pub mod shapes;
+mod tangents;
 mod views;
