@@ -1,11 +1,11 @@
 //! Planar islands: the flat parts of a mesh, each of which lights as one polygon.
 //!
-//! Positions within 1e-6 of the mesh's size are welded, triangles thinner than that are left out, and two triangles are
-//! neighbours where they share a whole edge, run through in opposite directions. (A vertex in the middle of a
+//! Positions within 1e-6 of the mesh's size are welded, triangles thinner than that are left out, of those that coincide
+//! and face the same way one is kept, and two triangles are neighbours where they share a whole edge, run through in opposite directions. (A vertex in the middle of a
 //! neighbour's edge, a T-junction, parts them; their polygons then light as much as one would.)
 //! An island is connected, faces one way, and is planar to 1e-3 of its size.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -50,7 +50,9 @@ impl Topology {
             let longest = (b - a).length().max((c - b).length()).max((a - c).length());
             (b - a).cross(c - a).length() > tolerance * longest
         };
-        let triangles: Vec<[u32; 3]> = triangles.filter(is_wide).collect();
+        let mut known = HashSet::new();
+        let is_new = |triangle: &[u32; 3]| known.insert(from_least(*triangle));
+        let triangles: Vec<[u32; 3]> = triangles.filter(is_wide).filter(is_new).collect();
         let (starts, neighbours) = adjacency(&triangles);
         Self { triangles, starts, neighbours }
     }
@@ -76,6 +78,13 @@ impl Topology {
         let triangle = triangle as usize;
         &self.neighbours[self.starts[triangle]..self.starts[triangle + 1]]
     }
+}
+
+/// The same triangle beginning with its least vertex.
+fn from_least(mut triangle: [u32; 3]) -> [u32; 3] {
+    let least = (0..3).min_by_key(|&corner| triangle[corner]).unwrap_or_default();
+    triangle.rotate_left(least);
+    triangle
 }
 
 /// For each vertex the first one at its place, to `tolerance`.

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::islands::Topology;
 use super::notices::Notices;
+use super::outline::crosses;
 use super::{Light, Scene, emission};
 
 /// The most planar islands of an instance that lights.
@@ -41,6 +42,10 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
             notices.add("emitters past 8192 corners in all glow but light nothing", || instance.name.clone());
         } else if own > 0 {
             corners += own;
+            if polygons.iter().any(|polygon| crosses(&polygon.contours, polygon.normal)) {
+                let kind = "emitters whose outline crosses itself light twice where they overlap";
+                notices.add(kind, || instance.name.clone());
+            }
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
             let texture_mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
             let two_sided = material.double_sided;

@@ -7,6 +7,8 @@ use glam::{DVec2, DVec3, Vec3};
 /// How far the outline may move for a vertex to be dropped, relative to the island's size: far below what a picture
 /// shows, above the noise of rounded positions.
 const STRAIGHT_TOLERANCE: f64 = 1e-6;
+/// How far edges must reach past each other to cross, relative to the island's size.
+const CROSSING_TOLERANCE: f64 = 1e-4;
 
 /// The closed contours around `triangles` (of vertices in `positions`), which lie in a plane of unit `normal` and turn
 /// counter-clockwise seen against it: so do contours around their area; those around holes turn clockwise. Vertices on
@@ -29,6 +31,31 @@ pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DV
         kept.into_iter().map(|at| positions[corners[at] as usize].as_vec3()).collect::<Vec<Vec3>>()
     });
     contours.filter(|contour| contour.len() >= 3).collect()
+}
+
+/// Whether the edges of an outline in a plane of unit `normal` cross each other: its triangles overlap then, and what is
+/// covered twice counts twice. Takes the square of the number of edges.
+pub(super) fn crosses(contours: &[Vec<Vec3>], normal: Vec3) -> bool {
+    let (right, up) = normal.as_dvec3().any_orthonormal_pair();
+    let flatten = |corner: Vec3| DVec2::new(corner.as_dvec3().dot(right), corner.as_dvec3().dot(up));
+    let edges = contours.iter().flat_map(|contour| {
+        let next = contour.iter().cycle().skip(1);
+        contour.iter().zip(next).map(|(&from, &to)| (flatten(from), flatten(to)))
+    });
+    let edges: Vec<(DVec2, DVec2)> = edges.collect();
+    let origin = edges.first().map_or(DVec2::ZERO, |edge| edge.0);
+    let reach = edges.iter().map(|edge| edge.0.distance(origin)).fold(0.0, f64::max);
+    // Corners that rounding put on the wrong side of an edge are none.
+    let tolerance = CROSSING_TOLERANCE * reach;
+    let parts = |(from, to): (DVec2, DVec2), (one, other): (DVec2, DVec2)| {
+        let along = (to - from).normalize_or_zero();
+        let (left, right) = (along.perp_dot(one - from), along.perp_dot(other - from));
+        left.abs().min(right.abs()) > tolerance && left * right < 0.0
+    };
+    edges
+        .iter()
+        .enumerate()
+        .any(|(at, &edge)| edges[at + 1..].iter().any(|&other| parts(edge, other) && parts(other, edge)))
 }
 
 /// The directed edges of the triangles that no opposite one cancels, sorted.

@@ -184,7 +184,7 @@ mod tests {
         for y in (0..400).step_by(4).map(|y| y as f32) {
             let last = state.settings.clone();
             let change = drag(&context, &mut state, PointerButton::Primary, pos2(1120.0, y), pos2(1150.0, y));
-            if state.settings.layering_of(0, &scene[0]) != last.layering_of(0, &scene[0]) {
+            if state.settings.layering_of(0) != last.layering_of(0) {
                 changes.push(change);
             }
             if state.settings.ambient != last.ambient {
@@ -193,7 +193,7 @@ mod tests {
             }
         }
         assert!(changes.contains(&Change::Scene) && changes.contains(&Change::Drawn), "{changes:?}");
-        assert!(matches!(state.settings.layering_of(0, &scene[0]), Layering::Manual(share) if share != 0.3));
+        assert!(matches!(state.settings.layering_of(0), Layering::Manual(share) if share != 0.3));
         assert_eq!(state.settings.overrides_of(1), before.overrides_of(1));
         assert_eq!(state.scene.materials[1], scene[1]);
         // The light keeps its hue.

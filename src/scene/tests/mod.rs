@@ -3,5 +3,6 @@
 mod emission;
 mod islands;
 mod settings;
-mod shapes;
+pub mod shapes;
+mod tangents;
 mod views;

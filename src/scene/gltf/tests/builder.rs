@@ -8,7 +8,7 @@ use glam::Vec3;
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use serde_json::{Value, json};
 
-use crate::scene::Scene;
+use crate::scene::{Material, Mesh, PunctualKind, Scene, TextureSlot};
 
 /// A file under construction: JSON, and the bytes of its one buffer.
 pub struct Builder {
@@ -69,6 +69,17 @@ impl Builder {
         file.push("nodes", json!({ "name": "lamp", "mesh": mesh, "rotation": rotation, "scale": [1.0, 1.0, 1.0] }));
         file.json["scenes"] = json!([{ "nodes": [0, 1, 2] }]);
         file.json["scene"] = json!(0);
+        file
+    }
+
+    /// The studio, both sets of whose square's texture coordinates run from 0 to 1.
+    pub fn textured_studio() -> Self {
+        let mut file = Self::studio();
+        let corners: [[f32; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        for set in ["TEXCOORD_0", "TEXCOORD_1"] {
+            let accessor = file.accessor(bytemuck::cast_slice(&corners), 4, 5126, "VEC2");
+            file.json["meshes"][0]["primitives"][0]["attributes"][set] = json!(accessor);
+        }
         file
     }
 
@@ -197,6 +208,19 @@ pub fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
         .concat()
 }
 
+/// What holds of a mesh's attributes.
+pub fn check_attributes(mesh: &Mesh, material: &Material) {
+    let is_whole = |length: usize| length == 0 || length == mesh.positions.len();
+    assert!(mesh.tex_coords.iter().all(|coords| is_whole(coords.len())) && is_whole(mesh.colors.len()));
+    assert!(mesh.tex_coords.iter().flatten().all(|coords| coords.is_finite()));
+    let is_mapped = material.texture(TextureSlot::Normal).is_some();
+    assert_eq!(mesh.tangents.len(), if is_mapped { mesh.positions.len() } else { 0 });
+    for (tangent, normal) in mesh.tangents.iter().zip(&mesh.normals) {
+        assert!(tangent.w.abs() == 1.0 && tangent.truncate().is_normalized(), "{tangent}");
+        assert!(tangent.truncate().dot(*normal).abs() < 1e-5, "{tangent} {normal}");
+    }
+}
+
 /// What holds of every scene that loading gives.
 pub fn check(scene: &Scene) {
     assert!(!scene.cameras.is_empty() && !scene.instances.is_empty());
@@ -207,6 +231,18 @@ pub fn check(scene: &Scene) {
         assert!(mesh.indices.iter().all(|&index| (index as usize) < mesh.positions.len()));
         assert!(mesh.positions.iter().all(|position| position.is_finite()));
         assert!(mesh.normals.iter().all(|normal| normal.is_normalized()), "{:?}", mesh.normals);
+        check_attributes(mesh, &scene.materials[mesh.material]);
+    }
+    for light in &scene.punctual_lights {
+        assert!(light.position.is_finite() && light.direction.is_normalized());
+        assert!(light.intensity.is_finite() && light.intensity.min_element() >= 0.0 && light.intensity != Vec3::ZERO);
+        match light.kind {
+            PunctualKind::Point { range } => assert!(range > 0.0),
+            PunctualKind::Spot { range, inner, outer } => {
+                assert!(range > 0.0 && 0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2);
+            }
+            PunctualKind::Directional => {}
+        }
     }
     for instance in &scene.instances {
         assert!(instance.mesh < scene.meshes.len());

@@ -13,7 +13,7 @@ use crate::scene::{Image, Scene};
 
 /// The studio with this image in a texture of its felt.
 fn with_image(bytes: &[u8]) -> Builder {
-    let mut file = Builder::studio();
+    let mut file = Builder::textured_studio();
     file.texture(bytes);
     file.json["images"][0]["name"] = json!("weave");
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 0 });
@@ -174,7 +174,7 @@ fn images_larger_than_memory_are_refused_by_their_heads() {
     }
     // Each may be, all together may not.
     let bytes = png(&[(b"IHDR", &ihdr(8192, 8192, 8, 6)), (b"IDAT", &stored(&[0; 8])), (b"IEND", &[])]);
-    let mut file = Builder::studio();
+    let mut file = Builder::textured_studio();
     let slots = ["normalTexture", "occlusionTexture", "emissiveTexture"];
     for (index, slot) in slots.into_iter().enumerate() {
         file.texture(&bytes);

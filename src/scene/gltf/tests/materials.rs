@@ -9,7 +9,7 @@ use crate::scene::{AlphaMode, Material, Sheen, TextureSlot, TextureUse};
 
 /// The first material of the studio when it reads so, with four textures in the file.
 fn try_material(json: &Value) -> Result<(Material, Vec<String>), String> {
-    let mut file = Builder::studio();
+    let mut file = Builder::textured_studio();
     for _ in 0..4 {
         file.texture(&picture(ImageFormat::Png, 1, 1));
     }
@@ -178,7 +178,7 @@ fn unlit_materials_have_a_base_color_and_no_more() {
 
 #[test]
 fn what_is_not_drawn_is_noted_once_a_kind() {
-    let mut file = Builder::studio();
+    let mut file = Builder::textured_studio();
     file.json["animations"] =
         json!([{ "channels": [{ "target": { "path": "weights" }, "sampler": 0 }], "samplers": [] }]);
     for material in 0..2 {

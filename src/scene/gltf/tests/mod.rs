@@ -1,9 +1,12 @@
 //! Small files made in memory, read back.
 
+mod attributes;
 mod builder;
 mod bytes;
+mod extras;
 mod files;
 mod images;
+mod lights;
 mod materials;
 mod mutations;
 mod reads;

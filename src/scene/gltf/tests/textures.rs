@@ -8,7 +8,7 @@ use crate::scene::{Filter, Sampler, TextureSlot, Wrap};
 
 /// The studio with images of 1, 2, ... texels, as many as there are textures, and these textures in a material's slots.
 fn with_textures(textures: &[Value]) -> Builder {
-    let mut file = Builder::studio();
+    let mut file = Builder::textured_studio();
     for (index, texture) in textures.iter().enumerate() {
         file.texture(&picture(ImageFormat::Png, index as u32 + 1, 1));
         file.json["textures"][index] = texture.clone();
