@@ -43,8 +43,9 @@ pub fn render(arguments: &Render) -> Result<(), Failure> {
         Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
     })?;
     let camera = camera(&scene, arguments.camera.as_deref())?;
+    let settings = settings(arguments, &scene)?;
     let gpu = timing.measure("device", || open(arguments.adapter.as_deref()))?;
-    let bytes = draw(&gpu, arguments, format, (&scene, camera, &table), &mut timing)?;
+    let bytes = draw(&gpu, arguments, format, (&scene, camera, &table, &settings), &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
     scene.notices.iter().for_each(complain);
     report(arguments, &scene, &gpu, &timing);
@@ -56,26 +57,24 @@ fn draw(
     gpu: &Gpu,
     arguments: &Render,
     format: Format,
-    (scene, camera, table): (&Scene, &Camera, &LtcTable),
+    (scene, camera, table, settings): (&Scene, &Camera, &LtcTable, &Settings),
     timing: &mut Timing,
 ) -> Result<Vec<u8>, Failure> {
-    let settings = settings(arguments, scene)?;
     let samples = arguments.msaa;
     let encoded = match format {
         Format::Png => {
-            let renderer =
-                timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, &settings));
+            let renderer = timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, settings));
             let mut renderer = renderer.map_err(render_failure)?;
             let tone = arguments.tonemap.into();
-            let picture = timing
-                .measure("frame", || gpu.block_on(renderer.display(gpu, camera, arguments.size, &settings, tone)));
+            let picture =
+                timing.measure("frame", || gpu.block_on(renderer.display(gpu, camera, arguments.size, settings, tone)));
             timing.measure("encode", || Ok(picture?.to_png()))
         }
         Format::Exr => {
-            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, &settings));
+            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, settings));
             let mut renderer = renderer.map_err(render_failure)?;
             let picture =
-                timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, arguments.size, &settings)));
+                timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, arguments.size, settings)));
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };
