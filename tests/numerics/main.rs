@@ -3,6 +3,8 @@
 //! Statistical tests have fixed seeds. A chi-square test fails where its probability falls below `SIGNIFICANCE`, and a
 //! comparison of means where it is off by more than the stated number of standard errors.
 
+#[cfg(feature = "scenes")]
+mod disk_light;
 mod fit;
 mod hostile_table;
 mod medium;
