@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use super::Mesh;
 
 /// Triangles that are worked on together.
-const BLOCK: usize = 1 << 17;
+const BLOCK: usize = 1 << 16;
 /// The most triangles around a vertex that MikkTSpace is given: its recursion is as deep.
 const HUB_MAX: u32 = 128;
 /// In place of an index: there is none.

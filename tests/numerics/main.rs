@@ -4,6 +4,8 @@
 //! comparison of means where it is off by more than the stated number of standard errors.
 
 mod base;
+#[cfg(feature = "scenes")]
+mod disk_light;
 mod fit;
 mod ggx_table;
 mod hostile_table;

@@ -16,10 +16,11 @@ use crate::scene::{Instance, Scene, emitter};
 const EXTENSION: &str = "EXT_lights_area";
 /// The most that are drawn: as many rectangles as a scene's corners allow.
 const LIGHTS_MAX: usize = 2048;
-/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's. Its outline is within 0.4% of
-/// the radius of the circle. The form factor is then wrong by less than DISK_ERROR of what the whole hemisphere gives,
-/// wherever the point that it lights is at least a tenth of the radius away from the disk.
-pub const DISK_SIDES: u16 = 32;
+/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's; its outline is within 0.4% of
+/// the radius of the circle. Wherever the point that it lights is a tenth of the radius or more away from it, the form
+/// factor of the cosine is wrong by less than 6e-4 (of 1 for the whole hemisphere), that of a sheen's lobe by less than
+/// 1.3e-3 (a = 0.6, b = -0.2) to 1.1e-2 (a = 0.15, b = -0.8); measured against 4096 sides. 256 disks fit in a scene.
+const DISK_SIDES: u16 = 32;
 
 #[derive(Deserialize)]
 struct Lights {
@@ -87,7 +88,7 @@ impl Light {
 }
 
 /// A regular polygon about the origin of the area of a disk, counter-clockwise.
-pub fn disk(radius: f32, sides: u16) -> Vec<Vec2> {
+fn disk(radius: f32, sides: u16) -> Vec<Vec2> {
     let angle = 2.0 * PI / f32::from(sides);
     let reach = radius * (angle / angle.sin()).sqrt();
     (0..sides).map(|side| reach * Vec2::from_angle(angle * f32::from(side))).collect()

@@ -235,3 +235,80 @@ fn a_million_triangles_take_seconds() {
     // About 4 s; what is quadratic takes hours. The room is for machines that do other things beside.
     assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
 }
+
+/// The lights of a mesh that glows, and what is said of them.
+fn lit(mesh: Mesh) -> (Vec<Polygon>, Vec<String>) {
+    let mut glowing = scene(mesh, Mat4::IDENTITY);
+    glowing.materials[0].emission = Vec3::ONE;
+    let mut notices = Notices::default();
+    lights::add_lights(&mut glowing, 0, &mut notices);
+    (glowing.lights.into_iter().flat_map(|light| light.polygons).collect(), notices.into_lines().collect())
+}
+
+#[test]
+fn triangles_that_coincide_light_once_and_those_back_to_back_to_both_sides() {
+    let mut mesh = grid(2, ALL, FLAT);
+    mesh.indices.extend(mesh.indices.clone());
+    let turned: Vec<u32> = mesh.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [b, c, a]).collect();
+    mesh.indices.extend(turned);
+    assert_eq!(corners(&polygons(&mesh)), [4]);
+    let back: Vec<u32> = mesh.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
+    mesh.indices.extend(back);
+    let (polygons, notices) = lit(mesh);
+    assert_eq!((corners(&polygons), notices.len()), (vec![4, 4], 0));
+    assert_eq!(polygons[0].normal, -polygons[1].normal);
+}
+
+#[test]
+fn an_emitter_that_crosses_itself_is_said_and_lights_with_all_its_area() {
+    // A strip that goes one and a quarter times around in its plane and comes out over itself, or past itself.
+    let strip = |drift: f32| {
+        let mut mesh = Mesh::default();
+        for step in 0..=40u32 {
+            let arm = glam::Vec2::from_angle(step as f32 * std::f32::consts::TAU / 31.3).extend(0.0);
+            let inner = 1.0 + drift * step as f32;
+            mesh.positions.extend([inner * arm, (inner + 0.5) * arm]);
+        }
+        mesh.normals = vec![Vec3::Z; mesh.positions.len()];
+        mesh.indices = (0..40).flat_map(|step| [0, 1, 2, 2, 1, 3].map(|corner| 2 * step + corner)).collect();
+        mesh
+    };
+    for (drift, said) in [(0.005, 1), (0.05, 0)] {
+        let mesh = strip(drift);
+        let area_of = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
+            f64::from((b - a).cross(c - a).z) / 2.0
+        };
+        let expected: f64 = mesh.indices.as_chunks::<3>().0.iter().map(area_of).sum();
+        let (polygons, notices) = lit(mesh.clone());
+        let found: f64 = polygons.iter().map(area).sum();
+        assert!((found / expected - 1.0).abs() < 1e-4, "{drift}: {found} {expected}");
+        assert_eq!(notices.len(), said, "{drift} {notices:?}");
+    }
+    let (_, notices) = lit(strip(0.005));
+    assert!(notices[0].starts_with("emitters whose outline crosses itself light twice"), "{notices:?}");
+}
+
+#[test]
+fn folded_and_shuffled_triangles_in_one_plane_give_finite_lights() {
+    let mut random = Pcg32::seed_from_u64(9);
+    for _ in 0..300 {
+        let mut mesh = grid(3, ALL, FLAT);
+        for _ in 0..6 {
+            let (position, index) = (random.random_range(0..16), random.random_range(0..54));
+            mesh.positions[position] = Vec3::new(random.random(), random.random(), 0.0);
+            mesh.indices[index] = random.random_range(0..16);
+        }
+        for polygon in lit(mesh).0 {
+            assert!(polygon.normal.is_normalized() && area(&polygon).is_finite());
+        }
+    }
+}
+
+#[test]
+fn two_hundred_and_fifty_six_squares_all_light() {
+    let (polygons, notices) = lit(grid(32, |i, j| i % 2 == 0 && j % 2 == 0, FLAT));
+    assert_eq!((corners(&polygons), notices.len()), (vec![4; 256], 0));
+    let (polygons, notices) = lit(grid(34, |i, j| i % 2 == 0 && j % 2 == 0, FLAT));
+    assert_eq!((polygons.len(), notices.len()), (0, 1));
+}

@@ -104,7 +104,7 @@ fn hubs_of_very_many_triangles_take_no_time_and_no_stack() {
 #[test]
 fn blocks_have_no_seams_where_a_map_is_even() {
     // More triangles than are worked on together.
-    let mesh = mapped(square(300), |at| Vec2::new(at.x, 1.0 - at.y));
-    assert!(mesh.indices.len() / 3 > 1 << 17);
+    let mesh = mapped(square(200), |at| Vec2::new(at.x, 1.0 - at.y));
+    assert!(mesh.indices.len() / 3 > 1 << 16);
     assert!(mesh.tangents.iter().all(|tangent| tangent.distance(Vec4::new(1.0, 0.0, 0.0, 1.0)) < 1e-4));
 }

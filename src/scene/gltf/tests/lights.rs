@@ -193,8 +193,8 @@ fn lights_share_what_is_drawn_for_them_and_vanish_with_their_nodes() {
 }
 
 #[test]
-fn a_million_lights_take_seconds_and_one_notice() {
-    const COUNT: usize = 1_000_000;
+fn very_many_lights_take_seconds_and_one_notice() {
+    const COUNT: usize = 250_000;
     let square = Builder::square();
     let emissive = json!([{ "emissiveFactor": [1, 1, 1] }]);
     for (lights, node, lit, notice) in [
@@ -227,7 +227,7 @@ fn a_million_lights_take_seconds_and_one_notice() {
         let glb = file.glb();
         let start = Instant::now();
         let scene = read(&glb).unwrap();
-        // About 3 s; the room is for machines that do other things beside.
+        // About 1 s; the room is for machines that do other things beside.
         assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
         assert_eq!(scene.lights.len() + scene.punctual_lights.len(), lit, "{notice}");
         let said: Vec<&String> = scene.notices.iter().filter(|line| line.starts_with(notice)).collect();

@@ -48,11 +48,18 @@ fn changed_bytes() {
 #[test]
 fn changed_bytes_of_the_buffer() {
     let mut random = Pcg32::seed_from_u64(2);
-    let file = Builder::studio();
+    const ROUNDS: usize = 4000;
+    for file in [Builder::studio(), workshop()] {
+        let read = read_with_changed_buffer(&file, &mut random, ROUNDS);
+        assert!(read > ROUNDS / 10 && read < ROUNDS, "{read} of {ROUNDS} are read");
+    }
+}
+
+/// How many of so many copies of a file with changed buffers are read.
+fn read_with_changed_buffer(file: &Builder, random: &mut Pcg32, rounds: usize) -> usize {
     let json = file.json.to_string();
     let mut read = 0;
-    const ROUNDS: usize = 4000;
-    for _ in 0..ROUNDS {
+    for _ in 0..rounds {
         let mut bytes = file.bytes.clone();
         for _ in 0..random.random_range(1..6) {
             let at = random.random_range(0..bytes.len());
@@ -60,17 +67,17 @@ fn changed_bytes_of_the_buffer() {
         }
         read += usize::from(survives(&glb(json.as_bytes(), &bytes)));
     }
-    assert!(read > ROUNDS / 10 && read < ROUNDS, "{read} of {ROUNDS} are read");
+    read
 }
 
 #[test]
 fn changed_values() {
-    change_values(Builder::studio(), 3);
-}
-
-#[test]
-fn changed_values_of_materials_and_textures() {
-    change_values(dressed(), 4);
+    let mut random = Pcg32::seed_from_u64(3);
+    const ROUNDS: usize = 6000;
+    for file in [Builder::studio(), workshop(), dressed()] {
+        let read = read_with_changed_values(&file, &mut random, ROUNDS);
+        assert!(read > ROUNDS / 100 && read < ROUNDS / 2, "{read} of {ROUNDS} are read");
+    }
 }
 
 #[test]
@@ -119,23 +126,65 @@ fn dressed() -> Builder {
     file
 }
 
-fn change_values(file: Builder, seed: u64) {
-    let mut random = Pcg32::seed_from_u64(seed);
+/// How many of so many copies of a file with changed values are read.
+fn read_with_changed_values(file: &Builder, random: &mut Pcg32, rounds: usize) -> usize {
     let mut pointers = Vec::new();
     collect(&file.json, String::new(), &mut pointers);
     let mut read = 0;
-    const ROUNDS: usize = 6000;
-    for _ in 0..ROUNDS {
+    for _ in 0..rounds {
         let mut json = file.json.clone();
         for _ in 0..random.random_range(1..3) {
             let pointer = &pointers[random.random_range(0..pointers.len())];
-            change(&mut json, pointer, &mut random);
+            change(&mut json, pointer, random);
         }
         read += usize::from(survives(&glb(json.to_string().as_bytes(), &file.bytes)));
     }
-    assert!(read > ROUNDS / 100 && read < ROUNDS / 2, "{read} of {ROUNDS} are read");
+    read
 }
 
+/// The studio with a sheet that is quantized, sparse, coloured, mapped and skinned, and with lights of every kind.
+fn workshop() -> Builder {
+    let mut file = Builder::studio();
+    let positions: [i8; 16] = [-100, -100, 0, 0, 100, -100, 0, 0, 100, 100, 0, 0, -100, 100, 0, 0];
+    let positions = file.accessor(bytemuck::cast_slice(&positions), 4, 5120, "VEC3");
+    file.json["bufferViews"][positions]["byteStride"] = json!(4);
+    file.json["accessors"][positions]["normalized"] = json!(true);
+    let replaced = [file.accessor(&[1, 3], 2, 5121, "SCALAR"), file.accessor(&[90, 0, 5, 0, 90, 250], 2, 5120, "VEC3")];
+    let indices = json!({ "bufferView": replaced[0], "componentType": 5121 });
+    file.json["accessors"][positions]["sparse"] =
+        json!({ "count": 2, "indices": indices, "values": { "bufferView": replaced[1] } });
+    let normals = file.accessor(&[0, 0, 127].repeat(4), 4, 5120, "VEC3");
+    let tangents = file.accessor(&[127, 0, 0, 127].repeat(4), 4, 5120, "VEC4");
+    let coords = file.accessor(&[0, 0, 255, 0, 255, 255, 0, 255], 4, 5121, "VEC2");
+    let colors = file.accessor(&[9, 99, 250].repeat(4), 4, 5121, "VEC3");
+    let attributes = json!({
+        "POSITION": positions, "NORMAL": normals, "TANGENT": tangents, "TEXCOORD_0": coords, "COLOR_0": colors,
+    });
+    let mesh = file.json["meshes"][0]["primitives"][0].as_object_mut().unwrap();
+    mesh.insert("attributes".to_owned(), attributes);
+    let bound: Vec<f32> = glam::Mat4::IDENTITY.to_cols_array().to_vec();
+    let bound = file.accessor(bytemuck::cast_slice(&bound), 1, 5126, "MAT4");
+    file.json["skins"] = json!([{ "joints": [1], "inverseBindMatrices": bound }]);
+    file.json["nodes"][0]["skin"] = json!(0);
+    let spot = json!({ "type": "spot", "range": 9, "spot": { "innerConeAngle": 0.1, "outerConeAngle": 0.7 } });
+    let rect = json!({ "type": "rect", "size": 2, "color": [1, 1, 0], "rect": { "aspect": 2 } });
+    file.json["extensions"] = json!({
+        "KHR_lights_punctual": { "lights": [spot, { "type": "point" }, { "type": "directional", "intensity": 3 }] },
+        "EXT_lights_area": { "lights": [rect, { "type": "disk", "intensity": 5 }] },
+    });
+    for (node, (punctual, area)) in [(0, 0), (1, 1), (2, 0)].into_iter().enumerate() {
+        let lights = json!({ "KHR_lights_punctual": { "light": punctual }, "EXT_lights_area": { "light": area } });
+        file.json["nodes"][node]["extensions"] = lights;
+    }
+    file
+}
+
+#[test]
+fn the_workshop_itself_is_read() {
+    let scene = workshop().read();
+    assert_eq!((scene.punctual_lights.len(), scene.lights.len(), scene.notices.len()), (3, 4, 0));
+    assert!(!scene.meshes[0].colors.is_empty());
+}
 /// The JSON pointers of all values below the root.
 fn collect(value: &Value, pointer: String, pointers: &mut Vec<String>) {
     match value {
