@@ -36,8 +36,11 @@ struct MaterialFactors {
     layering: u32,
     // What is left of the base where layering is none of the constants above.
     manual: f32,
-    // Rows of the matrices that take texture coordinates (u, v, 1) to each slot's; w = 1 in the first: of the second set.
-    transforms: array<vec4f, 20>,
+}
+
+// Rows of the matrices that take texture coordinates (u, v, 1) to each slot's; w = 1 in the first: of the second set.
+struct MaterialTransforms {
+    rows: array<vec4f, 20>,
 }
 
 struct MaterialSurface {
@@ -83,6 +86,9 @@ struct MaterialSurface {
 @group(1) @binding(18) var material_sheen_roughness_sampler: sampler;
 @group(1) @binding(19) var material_sheen_weight_sampler: sampler;
 
+// A uniform, since filtering takes derivatives: pixels that only help others to theirs may read zeros from storage.
+@group(1) @binding(20) var<uniform> material_transforms: MaterialTransforms;
+
 // Without textures and vertex colours.
 fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurface {
     let factors = &material_factors[material];
@@ -98,9 +104,9 @@ fn material_has(slot: u32) -> bool {
     return (MATERIAL_TEXTURES & (1u << slot)) != 0u;
 }
 
-fn material_uv(material: u32, slot: u32, tex_coords: vec4f) -> vec2f {
-    let u = material_factors[material].transforms[2u * slot];
-    let v = material_factors[material].transforms[2u * slot + 1u];
+fn material_uv(slot: u32, tex_coords: vec4f) -> vec2f {
+    let u = material_transforms.rows[2u * slot];
+    let v = material_transforms.rows[2u * slot + 1u];
     let at = vec3f(select(tex_coords.xy, tex_coords.zw, u.w != 0.0), 1.0);
     return vec2f(dot(u.xyz, at), dot(v.xyz, at));
 }
@@ -112,55 +118,55 @@ fn material_textured(
     surface.base_color *= color.rgb;
     surface.opacity *= color.a;
     if material_has(MATERIAL_BASE_COLOR) {
-        let uv = material_uv(material, MATERIAL_BASE_COLOR, tex_coords);
+        let uv = material_uv(MATERIAL_BASE_COLOR, tex_coords);
         let texel = textureSample(material_base_color, material_base_color_sampler, uv);
         surface.base_color *= texel.rgb;
         surface.opacity *= texel.a;
     }
     if material_has(MATERIAL_METALLIC_ROUGHNESS) {
-        let uv = material_uv(material, MATERIAL_METALLIC_ROUGHNESS, tex_coords);
+        let uv = material_uv(MATERIAL_METALLIC_ROUGHNESS, tex_coords);
         let texel = textureSample(material_metallic_roughness, material_metallic_roughness_sampler, uv);
         surface.roughness *= texel.g;
         surface.metallic *= texel.b;
     }
     if MATERIAL_NORMAL {
-        let uv = material_uv(material, MATERIAL_NORMAL_MAP, tex_coords);
+        let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
         let texel = 2.0 * textureSample(material_normal, material_normal_sampler, uv).xyz - 1.0;
         let mapped = texel * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
         let across = tangent.w * cross(normal, tangent.xyz);
         surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
     }
     if material_has(MATERIAL_OCCLUSION) {
-        let uv = material_uv(material, MATERIAL_OCCLUSION, tex_coords);
+        let uv = material_uv(MATERIAL_OCCLUSION, tex_coords);
         let texel = textureSample(material_occlusion, material_occlusion_sampler, uv);
         surface.occlusion = 1.0 + material_factors[material].occlusion_strength * (texel.r - 1.0);
     }
     if material_has(MATERIAL_EMISSION) {
-        let uv = material_uv(material, MATERIAL_EMISSION, tex_coords);
+        let uv = material_uv(MATERIAL_EMISSION, tex_coords);
         surface.emission *= textureSample(material_emission, material_emission_sampler, uv).rgb;
     }
     if material_has(MATERIAL_SPECULAR) {
-        let uv = material_uv(material, MATERIAL_SPECULAR, tex_coords);
+        let uv = material_uv(MATERIAL_SPECULAR, tex_coords);
         let strength = textureSample(material_specular, material_specular_sampler, uv).a;
         surface.f0 *= strength;
         surface.f90 *= strength;
     }
     if material_has(MATERIAL_SPECULAR_COLOR) {
-        let uv = material_uv(material, MATERIAL_SPECULAR_COLOR, tex_coords);
+        let uv = material_uv(MATERIAL_SPECULAR_COLOR, tex_coords);
         surface.f0 *= textureSample(material_specular_color, material_specular_color_sampler, uv).rgb;
     }
     if material_has(MATERIAL_SHEEN_COLOR) {
-        let uv = material_uv(material, MATERIAL_SHEEN_COLOR, tex_coords);
+        let uv = material_uv(MATERIAL_SHEEN_COLOR, tex_coords);
         surface.sheen_color *= textureSample(material_sheen_color, material_sheen_color_sampler, uv).rgb;
     }
     if material_has(MATERIAL_SHEEN_ROUGHNESS) {
-        let uv = material_uv(material, MATERIAL_SHEEN_ROUGHNESS, tex_coords);
+        let uv = material_uv(MATERIAL_SHEEN_ROUGHNESS, tex_coords);
         let texel = textureSample(material_sheen_roughness, material_sheen_roughness_sampler, uv);
         let factors = &material_factors[material];
         surface.sheen_alpha = pow((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
     }
     if material_has(MATERIAL_SHEEN_WEIGHT) {
-        let uv = material_uv(material, MATERIAL_SHEEN_WEIGHT, tex_coords);
+        let uv = material_uv(MATERIAL_SHEEN_WEIGHT, tex_coords);
         let weight = textureSample(material_sheen_weight, material_sheen_weight_sampler, uv).r;
         surface.sheen_color *= weight;
         surface.sheen_weight *= weight;

@@ -44,6 +44,8 @@ struct SurfacesVarying {
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
     @location(2) @interpolate(flat) emission: vec3f,
     @location(3) @interpolate(flat) material: u32,
+    // At the centre after all: what derivatives are taken of, which jump where centroids do.
+    @location(4) n_center: vec3f,
 }
 
 // The same with what textures and vertex colours need.
@@ -53,9 +55,10 @@ struct SurfacesTexturedVarying {
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
     @location(2) @interpolate(flat) emission: vec3f,
     @location(3) @interpolate(flat) material: u32,
-    @location(4) @interpolate(perspective, centroid) t_world: vec4f,
-    @location(5) @interpolate(perspective, centroid) tex_coords: vec4f,
-    @location(6) @interpolate(perspective, centroid) color: vec4f,
+    @location(4) n_center: vec3f,
+    @location(5) t_world: vec4f,
+    @location(6) tex_coords: vec4f,
+    @location(7) @interpolate(perspective, centroid) color: vec4f,
 }
 
 fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying {
@@ -64,7 +67,7 @@ fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying
     let n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
     let clip = surfaces_frame.clip_from_world * p_world;
     return SurfacesVarying(
-        clip, p_world.xyz, n_world, surfaces_instances[index].emission, surfaces_instances[index].material,
+        clip, p_world.xyz, n_world, surfaces_instances[index].emission, surfaces_instances[index].material, n_world,
     );
 }
 
@@ -91,7 +94,7 @@ fn surfaces_vertex_textured(
     let t_world = surfaces_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
     let side = tangent.w * surfaces_instances[index].handedness;
     return SurfacesTexturedVarying(
-        bare.position, bare.p_world, bare.n_world, bare.emission, bare.material,
+        bare.position, bare.p_world, bare.n_world, bare.emission, bare.material, bare.n_world,
         vec4f(t_world, side), vec4f(tex_coord_0, tex_coord_1), color,
     );
 }
@@ -105,7 +108,7 @@ fn surfaces_normalize(v: vec3f) -> vec3f {
 @fragment
 fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let surface = material_plain(in.material, in.emission, in.n_world);
-    return surfaces_radiance(surface, in.p_world, in.n_world, front_facing);
+    return surfaces_radiance(surface, in.p_world, in.n_world, in.n_center, front_facing);
 }
 
 @fragment
@@ -114,19 +117,25 @@ fn surfaces_fragment_textured(
     @builtin(front_facing) front_facing: bool,
 ) -> @location(0) vec4f {
     let surface = material_textured(in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color);
-    return surfaces_radiance(surface, in.p_world, in.n_world, front_facing);
+    return surfaces_radiance(surface, in.p_world, in.n_world, in.n_center, front_facing);
 }
 
 // The radiance of a surface's point, and its opacity where that counts.
-fn surfaces_radiance(surface: MaterialSurface, p_world: vec3f, n_world: vec3f, front_facing: bool) -> vec4f {
+fn surfaces_radiance(
+    surface: MaterialSurface, p_world: vec3f, n_world: vec3f, n_center: vec3f, front_facing: bool,
+) -> vec4f {
     let view = surfaces_normalize(surfaces_frame.eye.xyz - surfaces_frame.eye.w * p_world);
     let side = select(-1.0, 1.0, front_facing);
     let normal = side * surfaces_normalize(surface.normal);
     var mu = max(dot(normal, view), 0.0);
     var roughness = surface.roughness;
     if SURFACES_FILTERED {
-        mu = surfaces_visible_mean(dot(normal, view));
-        roughness = surfaces_filtered_roughness(roughness, surface.normal, normal);
+        let unit = surfaces_normalize(n_center);
+        let right = dpdx(unit);
+        let down = dpdy(unit);
+        mu = surfaces_visible_mean(dot(normal, view), abs(dot(right, view)) + abs(dot(down, view)));
+        let variance = 0.25 * (dot(right, right) + dot(down, down));
+        roughness = surfaces_filtered_roughness(roughness, variance, length(surface.normal));
     }
     if SURFACES_MASK && surface.opacity < surface.alpha_cutoff {
         discard;
@@ -163,20 +172,17 @@ fn surfaces_radiance(surface: MaterialSurface, p_world: vec3f, n_world: vec3f, f
 }
 
 // Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. Where the sheen is
-// brightest a sample of it there would be anything between; this is the mean.
-fn surfaces_visible_mean(mu: f32) -> f32 {
-    let half_width = min(0.5 * fwidth(mu), 0.5);
+// brightest a sample of it there would be anything between; this is the mean of what is seen of a pixel that is so wide in cosine.
+fn surfaces_visible_mean(mu: f32, width: f32) -> f32 {
+    let half_width = min(0.5 * width, 0.5);
     return 0.5 * (max(mu - half_width, 0.0) + max(mu + half_width, 0.0));
 }
 
 // Normals that vary over a pixel widen the specular lobe (Tokuyoshi and Kaplanyan 2019, eqs. 4 and 5: the half vector's variance from
-// the normal's derivatives), as do those that a mipmap has averaged, which are shorter than 1 (Toksvig 2005).
-fn surfaces_filtered_roughness(roughness: f32, mean_normal: vec3f, normal: vec3f) -> f32 {
-    let du = dpdx(normal);
-    let dv = dpdy(normal);
-    let across = 0.25 * (dot(du, du) + dot(dv, dv));
-    let size = clamp(length(mean_normal), 0.5, 1.0);
-    let variance = min(across + 2.0 * (1.0 - size) / size * f32(MATERIAL_NORMAL), 0.18);
+// the normal's derivatives), as do those that a mipmap has averaged, whose mean is shorter than 1 (Toksvig 2005).
+fn surfaces_filtered_roughness(roughness: f32, variance: f32, mean_length: f32) -> f32 {
+    let size = clamp(mean_length, 0.5, 1.0);
+    let mapped = select(0.0, 2.0 * (1.0 - size) / size, MATERIAL_NORMAL);
     let alpha = roughness * roughness;
-    return sqrt(sqrt(min(alpha * alpha + variance, 1.0)));
+    return sqrt(sqrt(min(alpha * alpha + min(variance + mapped, 0.18), 1.0)));
 }

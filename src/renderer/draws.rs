@@ -6,7 +6,6 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 
 use super::materials::Look;
-use super::textures::is_textured;
 use crate::scene::{Bounds, Instance, Light, Scene, Settings};
 
 /// `SurfacesInstance` of `surfaces.wgsl`.
@@ -63,7 +62,7 @@ impl Variant {
 pub(super) struct Batch {
     pub variant: Variant,
     pub mesh: usize,
-    pub material: Option<usize>,
+    pub material: usize,
     pub range: Range<u32>,
 }
 
@@ -105,7 +104,6 @@ impl Draws {
                 Some(batch) => batch.range.end = at + 1,
                 None => {
                     let material = scene.meshes[mesh].material;
-                    let material = is_textured(&scene.materials[material]).then_some(material);
                     draws.batches.push(Batch { variant, mesh, material, range: at..at + 1 });
                 }
             }

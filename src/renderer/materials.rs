@@ -24,7 +24,6 @@ pub(super) struct GpuMaterial {
     layering: u32,
     manual: f32,
     padding: [u32; 3],
-    transforms: [Vec4; 2 * TextureSlot::COUNT],
 }
 
 /// What of the shaders a material needs.
@@ -99,12 +98,11 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         layering,
         manual,
         padding: [0; 3],
-        transforms: transforms(material),
     }
 }
 
-/// Two rows a slot: uv = rows (u, v, 1); w = 1 in the first where it takes the second set of coordinates.
-fn transforms(material: &Material) -> [Vec4; 2 * TextureSlot::COUNT] {
+/// `MaterialTransforms` of `material.wgsl`: two rows a slot, uv = rows (u, v, 1); w = 1 in the first where it takes the second set of coordinates.
+pub(super) fn transforms(material: &Material) -> [Vec4; 2 * TextureSlot::COUNT] {
     let mut rows = [Vec4::ZERO; 2 * TextureSlot::COUNT];
     for (rows, texture) in rows.as_chunks_mut::<2>().0.iter_mut().zip(&material.textures) {
         let Affine2 { matrix2, translation } = texture.map_or(Affine2::IDENTITY, |texture| texture.uv_from_tex_coord);
@@ -141,10 +139,15 @@ mod tests {
             occlusion_strength,
             alpha_cutoff,
             layering,
-            manual,
-            transforms
+            manual
         });
         assert_eq!(differences(SURFACES_WGSL, "MaterialFactors", size_of::<GpuMaterial>(), members), [""; 0]);
+    }
+
+    #[test]
+    fn transforms_stand_as_the_shader_reads_them() {
+        let size = size_of_val(&transforms(&Material::matte("", Vec3::ONE)));
+        assert_eq!(differences(SURFACES_WGSL, "MaterialTransforms", size, &[("rows", 0)]), [""; 0]);
     }
 
     #[test]

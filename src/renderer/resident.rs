@@ -1,5 +1,7 @@
 //! A scene on the device: meshes and textures once, and what the user may change (materials, lights, places) whenever it changes.
 
+use std::collections::HashMap;
+
 use bytemuck::NoUninit;
 use glam::{Vec2, Vec4};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -35,8 +37,8 @@ pub(super) struct Resident {
     /// What meshes have in place of the attributes that they lack: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
-    /// By material; the last is that of all without textures.
-    material_groups: Vec<BindGroup>,
+    /// By material, and that of all materials without textures.
+    material_groups: (HashMap<usize, BindGroup>, BindGroup),
     pub draws: Draws,
 }
 
@@ -97,7 +99,8 @@ impl Resident {
 
     /// The textures of a batch.
     pub fn textures(&self, batch: &Batch) -> &BindGroup {
-        &self.material_groups[batch.material.unwrap_or(self.material_groups.len() - 1)]
+        let (textured, plain) = &self.material_groups;
+        textured.get(&batch.material).unwrap_or(plain)
     }
 }
 

@@ -3,46 +3,53 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
+use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView};
 
+use super::materials::transforms;
 use crate::scene::{Filter, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
 /// Most samples of a filter along the axis on which a texture is seen at a slant.
 const ANISOTROPY: u16 = 8;
 
-/// Group 1 of the surfaces' pass: a texture for each slot, then a sampler for each.
+/// Where the transforms of the texture coordinates are bound.
+const TRANSFORMS: u32 = 2 * TextureSlot::COUNT as u32;
+
+/// Group 1 of the surfaces' pass: a texture for each slot, a sampler for each, and the transforms of their coordinates.
 pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
-    use wgpu::{BindingType, SamplerBindingType, TextureSampleType, TextureViewDimension};
+    use wgpu::{BindingType, BufferBindingType, SamplerBindingType, TextureSampleType, TextureViewDimension};
     let texture = BindingType::Texture {
         sample_type: TextureSampleType::Float { filterable: true },
         view_dimension: TextureViewDimension::D2,
         multisampled: false,
     };
-    let types = [texture, BindingType::Sampler(SamplerBindingType::Filtering)];
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..2 * TextureSlot::COUNT)
-        .map(|index| wgpu::BindGroupLayoutEntry {
-            binding: index as u32,
+    let transforms =
+        BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
+    let types = [texture, BindingType::Sampler(SamplerBindingType::Filtering), transforms];
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..=TRANSFORMS)
+        .map(|binding| wgpu::BindGroupLayoutEntry {
+            binding,
             visibility: ShaderStages::FRAGMENT,
-            ty: types[index / TextureSlot::COUNT],
+            ty: types[binding as usize / TextureSlot::COUNT],
             count: None,
         })
         .collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
 }
 
-/// The bind group of each material by its index, and last one of white textures for those that have none.
+/// The bind groups of the materials that have textures, by their indices, and one of white textures for the others.
 pub(super) fn bind_groups(
     (device, queue): (&Device, &Queue),
     layout: &BindGroupLayout,
     scene: &Scene,
-) -> Vec<BindGroup> {
+) -> (HashMap<usize, BindGroup>, BindGroup) {
     let mut pool = Pool::new(device, queue, scene);
-    let plain = Material::matte("", glam::Vec3::ONE);
-    scene.materials.iter().chain([&plain]).map(|material| pool.bind_group(layout, material)).collect()
+    let textured = scene.materials.iter().enumerate().filter(|(_, material)| is_textured(material));
+    let groups = textured.map(|(index, material)| (index, pool.bind_group(layout, material))).collect();
+    (groups, pool.bind_group(layout, &Material::matte("", glam::Vec3::ONE)))
 }
 
-/// Whether a material needs a bind group of its own.
-pub(super) fn is_textured(material: &Material) -> bool {
+fn is_textured(material: &Material) -> bool {
     material.textures.iter().any(Option::is_some)
 }
 
@@ -75,6 +82,12 @@ impl<'a> Pool<'a> {
                 self.textures.entry((texture.image, is_color)).or_insert_with(make);
             }
         }
+        let transforms = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("material"),
+            contents: bytemuck::cast_slice(&transforms(material)),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let transforms = wgpu::BindGroupEntry { binding: TRANSFORMS, resource: transforms.as_entire_binding() };
         let entries: Vec<wgpu::BindGroupEntry> = TextureSlot::ALL
             .into_iter()
             .flat_map(|slot| {
@@ -90,6 +103,7 @@ impl<'a> Pool<'a> {
                     },
                 ]
             })
+            .chain([transforms])
             .collect();
         let label = Some("material");
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label, layout, entries: &entries })
