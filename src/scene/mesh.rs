@@ -11,7 +11,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Unit length, one per position, w = 1 or -1: the bitangent is w (normal x tangent). Empty where nothing is normal-mapped.
     pub tangents: Vec<Vec4>,
-    /// Two sets of texture coordinates, each with one per position, or empty.
+    /// Two sets of texture coordinates, each with one per position, or empty: where no texture of the material takes it, or
+    /// all are 0.
     pub tex_coords: [Vec<Vec2>; 2],
     /// Linear colour and opacity that multiply the material's base colour, 65535 is 1: one per position, or empty.
     pub colors: Vec<[u16; 4]>,

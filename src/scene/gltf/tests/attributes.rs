@@ -120,8 +120,8 @@ fn colors_are_kept_unless_they_are_white() {
     for (bytes, component, kind, expected) in [
         (floats(&[0.5f32, 2.0, -1.0, 0.25].repeat(3)), 5126, "VEC4", vec![half; 3]),
         (floats(&[0.5f32, 2.0, -1.0].repeat(3)), 5126, "VEC3", vec![half_opaque; 3]),
-        (vec![255, 0, 51, 255].repeat(3), 5121, "VEC4", vec![[65535, 0, 13107, 65535]; 3]),
-        (vec![1, 2, 3, 4, 0, 0].repeat(3), 5123, "VEC3", vec![[513, 1027, 0, 65535]; 3]),
+        ([255, 0, 51, 255].repeat(3), 5121, "VEC4", vec![[65535, 0, 13107, 65535]; 3]),
+        ([1, 2, 3, 4, 0, 0].repeat(3), 5123, "VEC3", vec![[513, 1027, 0, 65535]; 3]),
         (vec![255; 9], 5121, "VEC3", vec![]),
         (vec![255; 24], 5123, "VEC4", vec![]),
     ] {
