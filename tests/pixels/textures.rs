@@ -180,6 +180,36 @@ fn far_textures_are_their_mean_in_linear_light() {
     }
 }
 
+/// Pixels at a triangle's edge take part in derivatives of both triangles: a wrong one shows as a seam of another mipmap.
+#[test]
+fn triangles_leave_no_seams_in_textures() {
+    let texels: Vec<[u8; 4]> =
+        (0..64 * 64).map(|at| if (at % 64 / 8 + at / 512) % 2 == 0 { [255; 4] } else { [0; 4] }).collect();
+    let shown = |parts: u32| {
+        let mut scene = floor(Material { base_color: Vec3::ZERO, emission: Vec3::ONE, ..plain() });
+        textured(&mut scene, TextureSlot::Emission, [64, 64], texels.clone());
+        // The same floor in so many parts a side.
+        let corners =
+            || (0..=parts).flat_map(|y| (0..=parts).map(move |x| Vec2::new(x as f32, y as f32) / parts as f32));
+        let mesh = &mut scene.meshes[0];
+        mesh.positions = corners().map(|at| (3.0 * at - 1.5).extend(0.0)).collect();
+        mesh.tex_coords[0] = corners().collect();
+        (mesh.tex_coords[1], mesh.tangents) = (Vec::new(), Vec::new());
+        mesh.normals = vec![Vec3::Z; mesh.positions.len()];
+        let quad = |x: u32, y: u32| {
+            let at = y * (parts + 1) + x;
+            [at, at + 1, at + parts + 2, at, at + parts + 2, at + parts + 1]
+        };
+        mesh.indices = (0..parts).flat_map(|y| (0..parts).flat_map(move |x| quad(x, y))).collect();
+        let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
+        linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE)
+    };
+    let (whole, parts) = (shown(1), shown(23));
+    let far = |(left, right): &(&[f32; 3], &[f32; 3])| (left[0] - right[0]).abs() > 0.1;
+    let seams = whole.pixels.iter().zip(&parts.pixels).filter(far).count();
+    assert!(seams == 0, "{seams} pixels differ");
+}
+
 #[test]
 fn vertex_colours_multiply_the_base() {
     let mut colored = floor(plain());
