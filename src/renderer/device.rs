@@ -80,13 +80,21 @@ pub async fn open(
     let adapter = adapters.into_iter().find(fits).ok_or_else(|| no_match(name_part, names))?;
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("velour"),
-        required_features: adapter.features() & wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES,
+        required_features: adapter.features() & wanted_features(adapter.get_info().device_type),
         required_limits: adapter.limits(),
+        memory_hints: wgpu::MemoryHints::MemoryUsage,
         ..Default::default()
     };
     let refused = |source| DeviceError::Refused { adapter: adapter.get_info().name, source };
     let (device, queue) = adapter.request_device(&descriptor).await.map_err(refused)?;
     Ok(Gpu { adapter, device, queue })
+}
+
+/// 32-bit float targets with samples; and where the processor's memory is the device's, buffers that are filled where they stay.
+fn wanted_features(kind: wgpu::DeviceType) -> wgpu::Features {
+    let shared = matches!(kind, wgpu::DeviceType::Cpu | wgpu::DeviceType::IntegratedGpu);
+    let mappable = if shared { wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wgpu::Features::empty() };
+    wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES | mappable
 }
 
 fn no_match(name_part: Option<&str>, found: Vec<String>) -> DeviceError {

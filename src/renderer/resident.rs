@@ -137,7 +137,10 @@ fn bytes<T: NoUninit>(values: &[T]) -> Vec<u8> {
 
 fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
     let limit = gpu.device.limits().max_buffer_size;
-    let filled = |bytes: &[u8], usage| buffer(&gpu.device, &mesh.name, bytes, usage, limit);
+    // Without a copy on the way where the device can read what the processor writes.
+    let shared = gpu.device.features().contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS);
+    let mapped = if shared { BufferUsages::MAP_WRITE } else { BufferUsages::empty() };
+    let filled = |bytes: &[u8], usage| buffer(&gpu.device, &mesh.name, bytes, usage | mapped, limit);
     let vertices = |bytes: &[u8]| filled(bytes, BufferUsages::VERTEX);
     let some = |bytes: &[u8]| (!bytes.is_empty()).then(|| vertices(bytes)).transpose();
     let [first, second]: [&[Vec2]; 2] = mesh.tex_coords.each_ref().map(Vec::as_slice);

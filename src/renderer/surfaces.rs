@@ -47,6 +47,7 @@ pub struct SurfacesPass {
     frame: wgpu::Buffer,
     tables: [TextureView; 2],
     bind_group: BindGroup,
+    triangles_a_pass: u32,
 }
 
 impl SurfacesPass {
@@ -71,7 +72,10 @@ impl SurfacesPass {
         let tables = [tables::sheen(gpu, table), tables::ggx(gpu)];
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
         let pipelines = Pipelines { shader, layout: pipeline_layout, radiance };
-        let mut pass = Self { layout, made: HashMap::new(), pipelines, frame, tables, bind_group };
+        let is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let triangles_a_pass = if is_software { TRIANGLES_A_PASS } else { u32::MAX };
+        let made = HashMap::new();
+        let mut pass = Self { layout, made, pipelines, frame, tables, bind_group, triangles_a_pass };
         pass.prepare(device, resident);
         pass
     }
@@ -109,41 +113,92 @@ impl SurfacesPass {
             gain,
         };
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("surfaces"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &targets.radiance,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
-        pass.set_bind_group(0, &self.bind_group, &[]);
         let frustum = Frustum::new(view.clip_from_world, view.eye);
-        for (batch, run) in resident.draws.opaque(&frustum) {
-            self.draw(&mut pass, resident, batch, run);
-        }
-        for (batch, run) in resident.draws.blended(&frustum) {
-            self.draw(&mut pass, resident, batch, run);
+        let calls = calls(resident, &frustum, self.triangles_a_pass);
+        // The first pass clears the targets, whatever there is to draw.
+        let passes = calls.chunk_by(|one, next| one.pass == next.pass).chain(calls.is_empty().then_some(&[][..]));
+        for (index, calls) in passes.enumerate() {
+            let mut pass = begin(encoder, targets, index == 0);
+            pass.set_bind_group(0, &self.bind_group, &[]);
+            calls.iter().for_each(|call| self.draw(&mut pass, resident, call));
         }
     }
 
-    fn draw(&self, pass: &mut RenderPass, resident: &Resident, batch: &Batch, run: Range<u32>) {
-        let mesh = &resident.meshes[batch.mesh];
+    fn draw(&self, pass: &mut RenderPass, resident: &Resident, call: &Call) {
+        let (batch, mesh) = (call.batch, &resident.meshes[call.batch.mesh]);
         pass.set_bind_group(1, resident.textures(batch), &[]);
         bind_vertices(pass, mesh, &resident.constants, &batch.variant);
         pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_pipeline(&self.made[&(batch.variant, call.culled)]);
+        pass.draw_indexed(call.indices.clone(), 0, call.instances.clone());
+    }
+}
+
+/// Triangles that a pass draws at most on software drivers, which sort them by tiles first and keep 70 bytes of each until the pass ends.
+const TRIANGLES_A_PASS: u32 = 1 << 16;
+
+/// One call of a pass.
+struct Call<'a> {
+    batch: &'a Batch,
+    culled: Option<Face>,
+    instances: Range<u32>,
+    indices: Range<u32>,
+    /// Which pass.
+    pass: usize,
+}
+
+/// What the view shows, in order, in pieces that fit into a pass.
+fn calls<'a>(resident: &'a Resident, frustum: &Frustum, triangles_a_pass: u32) -> Vec<Call<'a>> {
+    let draws = resident.draws.opaque(frustum).chain(resident.draws.blended(frustum));
+    let mut calls: Vec<Call> = Vec::new();
+    let (mut pass, mut room) = (0, triangles_a_pass);
+    for (batch, run) in draws {
+        let index_count = resident.meshes[batch.mesh].index_count;
         for &culled in culled_faces(&batch.variant) {
-            pass.set_pipeline(&self.made[&(batch.variant, culled)]);
-            pass.draw_indexed(0..mesh.index_count, 0, run.clone());
+            let (mut instances, mut first) = (run.clone(), 0);
+            while !instances.is_empty() {
+                let triangles = (index_count - first) / 3;
+                if room < triangles.min(triangles_a_pass) {
+                    (pass, room) = (pass + 1, triangles_a_pass);
+                }
+                // As many whole instances as there is room for, else a part of one.
+                let (count, indices) = match room / triangles.max(1) {
+                    0 => (0, first..first + 3 * room),
+                    _ if first > 0 => (1, first..index_count),
+                    fitting => (fitting.min(instances.len() as u32), 0..index_count),
+                };
+                let drawn = instances.start..instances.start + count.max(1);
+                room -= (indices.len() as u32 / 3) * drawn.len() as u32;
+                first = if count == 0 { indices.end } else { 0 };
+                instances.start += count;
+                calls.push(Call { batch, culled, instances: drawn, indices, pass });
+            }
         }
     }
+    calls
+}
+
+/// Begins a pass over the targets, which are cleared first or go on.
+fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: bool) -> RenderPass<'a> {
+    let (color, depth) = match clears {
+        true => (wgpu::LoadOp::Clear(wgpu::Color::BLACK), wgpu::LoadOp::Clear(0.0)),
+        false => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("surfaces"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &targets.radiance,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: color, store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &targets.depth,
+            depth_ops: Some(wgpu::Operations { load: depth, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
 }
 
 /// What each pass over a mesh leaves out: what is seen through on both sides is drawn from the back first.

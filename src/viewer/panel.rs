@@ -92,6 +92,8 @@ fn ambient(ui: &mut Ui, radiance: &mut Vec3) {
     let (mut strength, mut color) = strength_and_color(before);
     ui.horizontal(|ui| {
         ui.label("ambient");
+        // Room for its box and the colour.
+        ui.spacing_mut().slider_width = 80.0;
         let value = egui::Slider::new(&mut strength, 0.0..=AMBIENT_MAX).logarithmic(true).smallest_positive(1e-3);
         slider(ui, value);
         color_button(ui, &mut color);
@@ -116,7 +118,11 @@ fn lights(ui: &mut Ui, state: &mut State) -> Change {
     ui.strong("Lights");
     let mut change = Change::None;
     for index in 0..state.scene.lights.len() {
-        let title = format!("{} ({})", state.scene.lights[index].name, index + 1);
+        let name = match state.scene.lights[index].name.as_str() {
+            "" => "light",
+            name => name,
+        };
+        let title = format!("{name} ({})", index + 1);
         let few = state.scene.lights.len() <= 4;
         let section = egui::CollapsingHeader::new(title).id_salt(index).default_open(few);
         section.show(ui, |ui| change = change.max(light(ui, state, index)));

@@ -1,8 +1,9 @@
 //! From radiance to pictures that are looked at, and pictures of all shapes.
 
+use glam::{Vec2, Vec3};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
-use velour::scene::{Scene, Settings};
+use velour::scene::{AlphaMode, Scene, Settings};
 use velour::table::LtcTable;
 
 use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
@@ -121,4 +122,40 @@ fn the_same_picture_comes_out_every_time() {
     assert_eq!(first, second);
     let [first, second] = [0, 1].map(|_| shown(&scene, 4, &settings, ToneCurve::Neutral, SIZE));
     assert_eq!(first, second);
+}
+
+/// Software drivers are given no more than 65,536 triangles in a pass: what is drawn in parts is what is drawn at once.
+#[test]
+fn many_triangles_are_drawn_in_parts_without_a_trace() {
+    let floor = |parts: u32, blended: bool| {
+        let mut scene = stage().scene();
+        scene.materials[0].double_sided = true;
+        if blended {
+            (scene.materials[0].alpha_mode, scene.materials[0].opacity) = (AlphaMode::Blend, 0.5);
+        }
+        let mesh = &mut scene.meshes[0];
+        let place = |at: u32| Vec2::new((at % (parts + 1)) as f32, (at / (parts + 1)) as f32) / parts as f32;
+        mesh.positions = (0..(parts + 1) * (parts + 1)).map(|at| (3.0 * place(at) - 1.5).extend(0.0)).collect();
+        mesh.normals = vec![Vec3::Z; mesh.positions.len()];
+        let quad = |x: u32, y: u32| {
+            let at = y * (parts + 1) + x;
+            [at, at + 1, at + parts + 2, at, at + parts + 2, at + parts + 1]
+        };
+        mesh.indices = (0..parts).flat_map(|y| (0..parts).flat_map(move |x| quad(x, y))).collect();
+        // More floors: at other heights, so that they hide each other.
+        for height in [-0.4, 0.3] {
+            let mut other = scene.instances[0].clone();
+            other.world_from_mesh.w_axis.y += height;
+            scene.instances.push(other);
+        }
+        linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE)
+    };
+    for blended in [false, true] {
+        let (whole, parts) = (floor(1, blended), floor(220, blended));
+        let differs = |(left, right): &(&[f32; 3], &[f32; 3])| {
+            (0..3).any(|channel| (left[channel] - right[channel]).abs() > 1e-3 * (1.0 + left[channel]))
+        };
+        let count = whole.pixels.iter().zip(&parts.pixels).filter(differs).count();
+        assert!(count <= 12, "{count} pixels differ, blended {blended}: more than a few at edges");
+    }
 }
