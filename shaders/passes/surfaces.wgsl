@@ -88,6 +88,7 @@ fn surfaces_form_factors(polygon: SurfacesPolygon, p_world: vec3f, local_from_wo
     }
     let identity = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     var sums = vec2f(0.0);
+    var turn = LTC_LEVEL;
     var outline = ltc_begin(local_from_world * to_vertex);
     for (var index = polygon.first_vertex + 1u; index < polygon.end_vertex; index++) {
         let vertex = surfaces_light_vertices[index];
@@ -97,9 +98,10 @@ fn surfaces_form_factors(polygon: SurfacesPolygon, p_world: vec3f, local_from_wo
         } else {
             outline = ltc_next(outline, p_local);
             sums += vec2f(ltc_edge(outline, identity), ltc_edge(outline, m_inv));
+            turn = ltc_turn(turn, outline, identity);
         }
     }
-    return vec2f(ltc_form_factor(sums.x, side), ltc_form_factor(sums.y, side));
+    return vec2f(ltc_form_factor(sums.x, turn, identity, side), ltc_form_factor(sums.y, turn, m_inv, side));
 }
 
 @fragment
