@@ -3,7 +3,10 @@
 mod device;
 mod files;
 mod form_factor;
+mod millions;
 mod named_cases;
 mod polygons;
 mod sampling;
 mod sheen;
+mod sweeps;
+mod vector;
