@@ -1,29 +1,29 @@
 // Form factors of polygonal lights under linearly transformed cosines (Heitz et al. 2016), clipped exactly at the horizon.
-// Copy with it: nothing. Lobes are matrices m_inv whose third row is (0,0,1): the identity is the diffuse one, sheen.wgsl gives another.
+// Copy with it: nothing. Lobes are matrices m_inv with rows (a,0,b), (0,c,0), (0,0,1): the identity is the diffuse one, sheen.wgsl gives another.
 // Frame: z = normal, x = view projected on the surface; vertices are relative to the shaded point, counter-clockwise seen from the lit side.
-// Example: outline = ltc_next(outline, frame * (vertex - position)); sum += ltc_edge(outline, m_inv);
-// Ranges: coordinates 0 or 1e-6 to 1e6; any number of vertices and contours; form factors in [0,1], 1 the whole hemisphere; never NaN.
-// Greatest error: 5e-7 for vertices exact in the frame, 5e-6 a millionth of its size from an edge; taking them there adds 1e-7 size / distance.
+// Example: outline = ltc_next(outline, frame * (vertex - position)); sum += ltc_edge(outline, m_inv); turn = ltc_turn(turn, outline, m_inv);
+// Ranges: coordinates to 1e5, a and c to 1e3; any number of vertices, in contours that do not cross; form factors in [0,1]; never NaN.
+// Greatest error: 5e-7 for vertices exact in the frame, 5e-6 a millionth of its size from an edge, times c/a; taking them there adds 1e-7 size/distance.
 
 const LTC_PI = 3.14159265358979;
 // A point closer to a light's plane than this share of its distance to the light's vertex is in the plane: f32 sees no side.
 const LTC_IN_PLANE = 4.8e-7;
 // Vertices no higher than this are below the horizon; far below the range, it keeps products of two heights from underflow.
 const LTC_HORIZON = 1e-20;
+// The turn before any edge.
+const LTC_LEVEL = vec2<f32>(1.0, 0.0);
 
 // An outline on its way round: the edge walked last, cut to its part above the horizon.
 struct LtcOutline {
-    vertex: vec3<f32>,   // the vertex reached
-    p: vec3<f32>,        // the part above the horizon starts in this direction
-    q: vec3<f32>,        // and ends in this one
-    normal: vec3<f32>,   // of the plane through the edge and the shaded point: q x p, up to a factor
-    sine: f32,           // |q x p| = sine |normal|; 0 where the edge lies below the horizon
-    pending: vec3<f32>,  // direction of a crossing of the horizon that waits for its partner; z != 0 where there is one
-    leave: vec2<f32>,    // where the outline sank below the horizon
-    enter: vec2<f32>,    // and where it rose again: a pair of directions that this edge completed, else 0
+    vertex: vec3<f32>,  // the vertex reached
+    p: vec3<f32>,       // the part above the horizon starts in this direction
+    q: vec3<f32>,       // and ends in this one
+    normal: vec3<f32>,  // of the plane through the edge and the shaded point: q x p, up to a factor
+    sine: f32,          // |q x p| = sine |normal|; 0 where the edge lies below the horizon
+    turn: vec2<f32>,    // where it enters the upper hemisphere; where it leaves, mirrored at x; else LTC_LEVEL
 }
 
-// local_startworld for a unit normal and a unit view on either side of the surface. Where they coincide x is any tangent.
+// local_from_world for a unit normal and a unit view on either side of the surface. Where they coincide x is any tangent.
 fn ltc_frame(normal: vec3<f32>, view: vec3<f32>) -> mat3x3<f32> {
     // An orthonormal basis of the normal alone (Duff et al. 2017), then turned: orthogonal however close the view is to the normal.
     let side = select(-1.0, 1.0, normal.z >= 0.0);
@@ -32,8 +32,8 @@ fn ltc_frame(normal: vec3<f32>, view: vec3<f32>) -> mat3x3<f32> {
     let s = vec3(1.0 + side * normal.x * normal.x * u, side * v, -side * normal.x);
     let t = vec3(v, side + normal.y * normal.y * u, -normal.y);
     let across = vec2(dot(view, s), dot(view, t));
-    let size = length(across);
-    let turn = select(vec2(1.0, 0.0), across / max(size, 1e-30), size > 1e-30);
+    let square = dot(across, across);
+    let turn = select(vec2(1.0, 0.0), across * inverseSqrt(max(square, 1e-36)), square > 1e-36);
     return transpose(mat3x3(turn.x * s + turn.y * t, turn.x * t - turn.y * s, normal));
 }
 
@@ -50,81 +50,78 @@ fn ltc_side(light_normal: vec3<f32>, to_vertex: vec3<f32>, two_sided: bool) -> f
 // Starts a contour at its last vertex, so that walking on to every vertex in turn closes it.
 fn ltc_begin(last: vec3<f32>) -> LtcOutline {
     let none = vec3(0.0);
-    return LtcOutline(last, none, none, none, 0.0, none, none.xy, none.xy);
+    return LtcOutline(last, none, none, none, 0.0, LTC_LEVEL);
 }
 
-// Walks to the next vertex. Once round, no crossing is pending: what leaves the upper hemisphere comes back.
+// Walks to the next vertex.
 fn ltc_next(outline: LtcOutline, vertex: vec3<f32>) -> LtcOutline {
     let start = outline.vertex;
     let starts_above = start.z > LTC_HORIZON;
     let ends_above = vertex.z > LTC_HORIZON;
-    let none = vec3(0.0);
-    if !starts_above && !ends_above {
-        return LtcOutline(vertex, none, none, none, 0.0, outline.pending, none.xy, none.xy);
-    }
     let normal = ltc_cross(vertex, start);
-    if starts_above && ends_above {
-        return LtcOutline(vertex, start, vertex, normal, 1.0, outline.pending, none.xy, none.xy);
-    }
     // The crossing start vertex.z - vertex start.z is z x (start x vertex): it inherits the accuracy of the product.
-    let across = select(-1.0, 1.0, ends_above) * vec2(normal.y, -normal.x);
-    let reach = max(max(abs(across.x), abs(across.y)), 1e-30);
-    let size = max(length(across / reach), 1.0);
-    let crossing = across / reach / size;
-    let p = select(start, vec3(crossing, 0.0), ends_above);
-    let q = select(vec3(crossing, 0.0), vertex, ends_above);
-    let sine = max(start.z, vertex.z) / size / reach;
-    // Leaving and entering alternate. All crossings of a polygon lie on one line, so any pairing of them sums to the same angle.
-    if outline.pending.z == 0.0 {
-        let pending = vec3(crossing, 1.0);
-        return LtcOutline(vertex, p, q, normal, sine, pending, none.xy, none.xy);
-    }
-    let leave = select(crossing, outline.pending.xy, ends_above);
-    let enter = select(outline.pending.xy, crossing, ends_above);
-    return LtcOutline(vertex, p, q, normal, sine, none, leave, enter);
+    let across = select(1.0, -1.0, starts_above) * normal;
+    let crossing = vec3(across.y, -across.x, 0.0);
+    let p = select(crossing, start, starts_above);
+    let q = select(crossing, vertex, ends_above);
+    let height = max(max(start.z, vertex.z) - LTC_HORIZON, 0.0);
+    let sine = select(height, 1.0, starts_above && ends_above);
+    let turn = select(LTC_LEVEL, vec2(across.y, -normal.x), starts_above != ends_above);
+    return LtcOutline(vertex, p, q, normal, sine, turn);
 }
 
 // What the edge walked last adds to a lobe's sum over all contours of a polygon.
 fn ltc_edge(outline: LtcOutline, m_inv: mat3x3<f32>) -> f32 {
-    if outline.sine == 0.0 {
-        return 0.0;
-    }
-    let x = m_inv[0].xy;
-    let y = m_inv[1].xy;
-    let z = m_inv[2].xy;
-    let area = x.x * y.y - x.y * y.x;
+    let a = m_inv[0].x;
+    let c = m_inv[1].y;
+    let b = m_inv[2].x;
     // Normals go by the cofactors, which keep the accuracy of the product; transformed vertices would have to be multiplied anew.
-    let n = outline.normal;
-    let tilt = vec2(y.y * n.x - x.y * n.y, x.x * n.y - y.x * n.x);
-    let normal = vec3(tilt, area * n.z - dot(z, tilt));
-    let size = length(normal);
-    var sum = 0.0;
-    if size > 0.0 {
-        sum = ltc_angle(size * outline.sine, dot(m_inv * outline.p, m_inv * outline.q)) * (normal.z / size);
-    }
-    // Along the horizon from where the outline left to where it came back.
-    let leave = x * outline.leave.x + y * outline.leave.y;
-    let enter = x * outline.enter.x + y * outline.enter.y;
-    let turn = enter.x * leave.y - enter.y * leave.x;
-    if turn == 0.0 {
-        return sum;
-    }
-    return sum + sign(turn) * ltc_angle(abs(turn), dot(leave, enter));
+    let normal = vec3(c * outline.normal.x, a * outline.normal.y, c * (a * outline.normal.z - b * outline.normal.x));
+    let p = vec3(a * outline.p.x + b * outline.p.z, c * outline.p.y, outline.p.z);
+    let q = vec3(a * outline.q.x + b * outline.q.z, c * outline.q.y, outline.q.z);
+    return normal.z * ltc_arc(normal, outline.sine, dot(p, q));
 }
 
-// The form factor from a lobe's sum and the light's side.
-fn ltc_form_factor(sum: f32, side: f32) -> f32 {
-    return clamp(side * sum / (2.0 * LTC_PI), 0.0, 1.0);
+// The same for the diffuse lobe as a vector: ltc_vector makes of the sum where the light comes from on average.
+fn ltc_edge_vector(outline: LtcOutline) -> vec3<f32> {
+    return outline.normal * ltc_arc(outline.normal, outline.sine, dot(outline.p, outline.q));
+}
+
+// The angle along the horizon from where the contours left to where they came back, which closes them, as a complex number's
+// argument; it starts at LTC_LEVEL. Lobes with the same c / a, as the diffuse one and the sheen, share it.
+// All crossings of a polygon lie on one line, so in any order the angles add up to less than pi: it is enough to multiply directions.
+fn ltc_turn(turn: vec2<f32>, outline: LtcOutline, m_inv: mat3x3<f32>) -> vec2<f32> {
+    let by = vec2(m_inv[0].x * outline.turn.x, m_inv[1].y * outline.turn.y);
+    let turned = vec2(turn.x * by.x - turn.y * by.y, turn.x * by.y + turn.y * by.x);
+    return turned / max(abs(turned.x) + abs(turned.y), 1e-37);
+}
+
+// The form factor from a lobe's sum and turn, and the light's side; 0 where m_inv is singular.
+fn ltc_form_factor(sum: f32, turn: vec2<f32>, m_inv: mat3x3<f32>, side: f32) -> f32 {
+    let lit = ltc_vector(vec3(0.0, 0.0, sum), turn, side).z;
+    return select(0.0, clamp(lit, 0.0, 1.0), m_inv[0].x * m_inv[1].y > 0.0);
+}
+
+// The integral of the directions in which a light is seen above the horizon, over pi: its z is the diffuse form factor.
+fn ltc_vector(sum: vec3<f32>, turn: vec2<f32>, side: f32) -> vec3<f32> {
+    let closing = vec3(0.0, 0.0, abs(side) * ltc_angle(abs(turn.y), turn.x));
+    return (side * sum + closing) / (2.0 * LTC_PI);
+}
+
+// The angle of an arc, over the length of its normal; 0 where it has none.
+fn ltc_arc(normal: vec3<f32>, sine: f32, cosine: f32) -> f32 {
+    let size = length(normal);
+    return ltc_angle(sine * size, cosine) / max(size, 1e-18);
 }
 
 // The angle in [0, pi] of a sine >= 0 and a cosine, of any common scale; 0 for two zeros. Greatest error 3e-7.
 fn ltc_angle(sine: f32, cosine: f32) -> f32 {
-    let ratio = min(sine, abs(cosine)) / max(max(sine, abs(cosine)), 1e-37);
+    let steep = sine > abs(cosine);
+    let ratio = select(sine, abs(cosine), steep) / max(select(abs(cosine), sine, steep), 1e-37);
     let s = ratio * ratio;
     // Minimax for arctangent on [0,1].
-    let high = ((-0.0040545659 * s + 0.021862953) * s - 0.055912320) * s + 0.096421969;
-    let low = ((((high * s - 0.13908629) * s + 0.19946566) * s - 0.33329861) * s + 0.99999934) * ratio;
-    let acute = select(low, 0.5 * LTC_PI - low, sine > abs(cosine));
+    let low = ratio * ((0.0405516 * s + 0.65590577) * s + 0.99999753) / ((0.1708228 * s + 0.98917014) * s + 1.0);
+    let acute = select(low, 0.5 * LTC_PI - low, steep);
     return select(acute, LTC_PI - acute, cosine < 0.0);
 }
 

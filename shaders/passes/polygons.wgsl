@@ -23,9 +23,12 @@ const POLYGONS_IDENTITY = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
 // On the way round a light.
 struct PolygonsWalk {
     outline: LtcOutline,
-    // Of the diffuse, specular and sheen lobe; across: of the diffuse one's vector in the plane of the surface.
+    // Of the diffuse, specular and sheen lobe.
     sums: vec3f,
-    across: vec2f,
+    // Along the horizon: xy of the diffuse lobe and the sheen, zw of the specular one.
+    turns: vec4f,
+    // The diffuse lobe's sum as a vector.
+    vector: vec3f,
     // The light's vertex reached, and the contour's first that is above the surface, where there has been one.
     corner: vec3f,
     first: vec3f,
@@ -34,18 +37,20 @@ struct PolygonsWalk {
 
 fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) -> PolygonsWalk {
     let outline = ltc_next(walk.outline, vertex);
-    var next = PolygonsWalk(outline, walk.sums, walk.across, vertex, walk.first, true);
+    var next = PolygonsWalk(outline, walk.sums, walk.turns, walk.vector, vertex, walk.first, true);
     next.sums.x += ltc_edge(outline, POLYGONS_IDENTITY);
+    var turns = vec4f(ltc_turn(walk.turns.xy, outline, POLYGONS_IDENTITY), walk.turns.zw);
     if SURFACES_SPECULAR {
         next.sums.y += ltc_edge(outline, receiver.ggx);
+        turns = vec4f(turns.xy, ltc_turn(walk.turns.zw, outline, receiver.ggx));
     }
     if SURFACES_SHEEN {
         next.sums.z += ltc_edge(outline, receiver.sheen);
     }
     if SURFACES_RECIPROCAL {
-        let size = max(length(outline.normal), 1e-30);
-        next.across += ltc_angle(size * outline.sine, dot(outline.p, outline.q)) / size * outline.normal.xy;
+        next.vector += ltc_edge_vector(outline);
     }
+    next.turns = turns;
     return next;
 }
 
@@ -73,7 +78,7 @@ fn polygons_walk_on(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f)
     if walk.is_begun {
         return polygons_walk(walk, receiver, vertex);
     }
-    return PolygonsWalk(ltc_begin(vertex), walk.sums, walk.across, vertex, vertex, true);
+    return PolygonsWalk(ltc_begin(vertex), walk.sums, walk.turns, walk.vector, vertex, vertex, true);
 }
 
 // Form factors of one light: diffuse, specular, sheen; w is the mean cosine of its directions.
@@ -86,20 +91,27 @@ fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight) -> vec4
         return vec4f(0.0);
     }
     var walk: PolygonsWalk;
+    walk.turns = vec4f(LTC_LEVEL, LTC_LEVEL);
     for (var index = light.first_vertex; index < light.end_vertex; index++) {
         let vertex = polygons_vertices[index];
         let p_local = receiver.local_from_world * (vertex.xyz - receiver.p_world);
         if vertex.w > 0.0 {
-            walk = PolygonsWalk(ltc_begin(p_local), walk.sums, walk.across, p_local, p_local, !MATERIAL_NORMAL);
+            walk = PolygonsWalk(
+                ltc_begin(p_local), walk.sums, walk.turns, walk.vector, p_local, p_local, !MATERIAL_NORMAL,
+            );
         } else if MATERIAL_NORMAL {
             walk = polygons_walk_above(walk, receiver, p_local, vertex.w < 0.0);
         } else {
             walk = polygons_walk(walk, receiver, p_local);
         }
     }
-    let diffuse = ltc_form_factor(walk.sums.x, side);
-    let cosine = polygons_mean_cosine(vec3f(side / (2.0 * LTC_PI) * walk.across, diffuse));
-    return vec4f(diffuse, ltc_form_factor(walk.sums.y, side), ltc_form_factor(walk.sums.z, side), cosine);
+    let turn = walk.turns.xy;
+    return vec4f(
+        ltc_form_factor(walk.sums.x, turn, POLYGONS_IDENTITY, side),
+        ltc_form_factor(walk.sums.y, walk.turns.zw, receiver.ggx, side),
+        ltc_form_factor(walk.sums.z, turn, receiver.sheen, side),
+        polygons_mean_cosine(ltc_vector(walk.vector, turn, side)),
+    );
 }
 
 // The mean cosine of a light's directions, weighted by the cosine, from its vector irradiance under unit radiance over pi (whose z is

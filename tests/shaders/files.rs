@@ -9,7 +9,8 @@ const FILES: [(&str, &str); 3] = [
         "ltc.wgsl",
         "fn example(frame: mat3x3<f32>, last: vec3<f32>, vertex: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
             var outline = ltc_begin(frame * (last - position));
-            var sum = 0.0;",
+            var sum = 0.0;
+            var turn = LTC_LEVEL;",
     ),
     (
         "sheen.wgsl",

@@ -28,6 +28,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let side = ltc_side(case_.light_normal, to_vertex, case_.two_sided != 0u);
     var diffuse = 0.0;
     var lobe = 0.0;
+    var level = LTC_LEVEL;
+    var turn = LTC_LEVEL;
     for (var c = case_.first; c < case_.first + case_.count; c++) {
         let contour = contours[c];
         var outline = ltc_begin(frame * (vertices[contour.x + contour.y - 1u].xyz - case_.position));
@@ -35,7 +37,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             outline = ltc_next(outline, frame * (vertices[v].xyz - case_.position));
             diffuse += ltc_edge(outline, identity);
             lobe += ltc_edge(outline, case_.m_inv);
+            level = ltc_turn(level, outline, identity);
+            turn = ltc_turn(turn, outline, case_.m_inv);
         }
     }
-    results[id.x] = vec2(ltc_form_factor(diffuse, side), ltc_form_factor(lobe, side));
+    results[id.x] = vec2(ltc_form_factor(diffuse, level, identity, side), ltc_form_factor(lobe, turn, case_.m_inv, side));
 }

@@ -148,6 +148,15 @@ pub fn sheen_lobe(random: &mut Pcg64) -> Mat3 {
     Mat3::from_cols(Vec3::X * a, Vec3::Y * a, Vec3::new(b, 0.0, 1.0))
 }
 
+/// A random lobe of the specular base, as its fits are: c = 1 / 2 alpha for a GGX `alpha`, the peak where a mirror has it.
+pub fn specular_lobe(random: &mut Pcg64, alpha: f64) -> Mat3 {
+    let mu: f64 = random.random_range(0.01..1.0);
+    let c = 0.5 / alpha * random.random_range(0.7..1.4);
+    let lean = c * mu * f64::sqrt(1.0 - mu * mu) * random.random_range(0.9..1.1);
+    let rows = [c * mu * mu, c, lean].map(|entry| entry as f32);
+    Mat3::from_cols(Vec3::X * rows[0], Vec3::Y * rows[1], Vec3::new(rows[2], 0.0, 1.0))
+}
+
 /// Whether `position`, `normal` and `view` are random too, or the case is given in the local frame.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Space {
@@ -157,27 +166,35 @@ pub enum Space {
 
 /// A light of the given size, seen from a surface of random orientation; two of three are one-sided and in front.
 pub fn place(random: &mut Pcg64, outline: &[DVec2], stand: DVec3, size: f64, space: Space) -> Case {
+    place_contours(random, &[outline.to_vec()], stand, size, space)
+}
+
+/// The same of several contours, the first of which runs around some of the area.
+pub fn place_contours(random: &mut Pcg64, plane: &[Vec<DVec2>], stand: DVec3, size: f64, space: Space) -> Case {
     let two_sided = random.random_range(0..3) == 0;
     let stand = if two_sided { stand } else { stand.with_z(stand.z.abs()) };
     let plane_normal = direction(random);
     let (x, y) = plane_normal.any_orthonormal_pair();
     let in_local = DMat3::from_cols(x, y, plane_normal);
-    let local: Vec<DVec3> = outline.iter().map(|vertex| size * (in_local * (vertex.extend(0.0) - stand))).collect();
+    let local: Vec<Vec<DVec3>> = plane
+        .iter()
+        .map(|contour| contour.iter().map(|vertex| size * (in_local * (vertex.extend(0.0) - stand))).collect())
+        .collect();
     let m_inv = sheen_lobe(random);
     if space == Space::Local {
-        let contour: Vec<Vec3> = local.iter().map(|vertex| vertex.as_vec3()).collect();
-        let normal = normal_of(&contour);
-        return Case { two_sided, m_inv, ..Case::local(vec![contour], normal) };
+        let contours: Vec<Vec<Vec3>> =
+            local.iter().map(|contour| contour.iter().map(|vertex| vertex.as_vec3()).collect()).collect();
+        let normal = normal_of(&contours[0]);
+        return Case { two_sided, m_inv, ..Case::local(contours, normal) };
     }
     let normal = direction(random);
     let (x, y) = normal.any_orthonormal_pair();
     let world_from_local = DMat3::from_cols(x, y, normal);
-    let nearest = local.iter().map(|vertex| vertex.length()).fold(f64::INFINITY, f64::min);
+    let nearest = local.iter().flatten().map(|vertex| vertex.length()).fold(f64::INFINITY, f64::min);
     let position = (nearest * direction(random)).as_vec3();
     let world = |vertex: &DVec3| (world_from_local * vertex + position.as_dvec3()).as_vec3();
-    let contour: Vec<Vec3> = local.iter().map(world).collect();
-    let light_normal = normal_of(&contour);
-    let contours = vec![contour];
+    let contours: Vec<Vec<Vec3>> = local.iter().map(|contour| contour.iter().map(world).collect()).collect();
+    let light_normal = normal_of(&contours[0]);
     let view = direction(random).as_vec3();
     Case { position, normal: normal.as_vec3(), view, contours, light_normal, two_sided, m_inv }
 }
