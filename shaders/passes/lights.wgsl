@@ -15,9 +15,16 @@ struct LightsPunctual {
 }
 
 struct LightsCounts {
+    // Polygons of one outline of four vertices come first.
+    quads: u32,
     polygons: u32,
     punctual: u32,
 }
+
+// Which kinds there are: a driver may run the body of a loop once that has nothing to do.
+override LIGHTS_QUADS: bool = true;
+override LIGHTS_POLYGONS: bool = true;
+override LIGHTS_PUNCTUAL: bool = true;
 
 @group(0) @binding(5) var<uniform> lights_counts: LightsCounts;
 @group(0) @binding(8) var<storage, read> lights_punctual: array<LightsPunctual>;
@@ -45,24 +52,39 @@ struct LightsIncident {
 
 fn lights_incident(receiver: LightsReceiver, base_weight: f32) -> LightsIncident {
     var incident = LightsIncident(vec3f(0.0), vec3f(0.0), vec3f(0.0));
-    var index = lights_next(receiver, 0u);
-    while index < lights_counts.polygons {
-        let form_factors = polygons_form_factors(receiver, polygons_lights[index]);
-        let radiance = polygons_lights[index].radiance;
-        incident = lights_add(receiver, incident, radiance, form_factors, base_weight);
-        index = lights_next(receiver, index + 1u);
+    if LIGHTS_QUADS {
+        incident = lights_add_polygons(receiver, incident, base_weight, true);
     }
-    for (index = 0u; index < lights_counts.punctual; index++) {
-        incident = lights_add_punctual(receiver, incident, lights_punctual[index], base_weight);
+    if LIGHTS_POLYGONS {
+        incident = lights_add_polygons(receiver, incident, base_weight, false);
+    }
+    if LIGHTS_PUNCTUAL {
+        for (var index = 0u; index < lights_counts.punctual; index++) {
+            incident = lights_add_punctual(receiver, incident, lights_punctual[index], base_weight);
+        }
     }
     return incident;
 }
 
-// The first polygon from index on that may light the point: not wholly below its horizon, nor turned away from it. Points side by
+fn lights_add_polygons(receiver: LightsReceiver, before: LightsIncident, base_weight: f32, quads: bool) -> LightsIncident {
+    var incident = before;
+    let first = select(lights_counts.quads, 0u, quads);
+    let end = select(lights_counts.polygons, lights_counts.quads, quads);
+    var index = lights_next(receiver, first, end);
+    while index < end {
+        let form_factors = polygons_form_factors(receiver, polygons_lights[index], quads);
+        let radiance = polygons_lights[index].radiance;
+        incident = lights_add(receiver, incident, radiance, form_factors, base_weight);
+        index = lights_next(receiver, index + 1u, end);
+    }
+    return incident;
+}
+
+// The first polygon from one on, before the end, that may light the point: not wholly below its horizon, nor turned away from it. Points side by
 // side skip dark lights each on their own, and walk round lit ones together.
-fn lights_next(receiver: LightsReceiver, first: u32) -> u32 {
+fn lights_next(receiver: LightsReceiver, first: u32, end: u32) -> u32 {
     var index = first;
-    while index < lights_counts.polygons {
+    while index < end {
         let to_center = polygons_lights[index].center - receiver.p_world;
         let is_above = dot(receiver.normal, to_center) > -polygons_lights[index].radius;
         let is_facing = dot(polygons_lights[index].normal, to_center) < 0.0 || polygons_lights[index].two_sided != 0u;

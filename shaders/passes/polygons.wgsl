@@ -81,8 +81,9 @@ fn polygons_walk_on(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f)
     return PolygonsWalk(ltc_begin(vertex), walk.sums, walk.turns, walk.vector, vertex, vertex, true);
 }
 
-// Form factors of one light: diffuse, specular, sheen; w is the mean cosine of its directions.
-fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight) -> vec4f {
+// Form factors of one light: diffuse, specular, sheen; w is the mean cosine of its directions. is_quad where it is known to be one
+// outline of four vertices: what is not in a loop, and loads from places that are known, costs two thirds.
+fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight, is_quad: bool) -> vec4f {
     let to_vertex = polygons_vertices[light.first_vertex].xyz - receiver.p_world;
     let side = ltc_side(light.normal, to_vertex, light.two_sided != 0u);
     let size = abs(receiver.p_world) + abs(to_vertex);
@@ -92,18 +93,15 @@ fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight) -> vec4
     }
     var walk: PolygonsWalk;
     walk.turns = vec4f(LTC_LEVEL, LTC_LEVEL);
-    for (var index = light.first_vertex; index < light.end_vertex; index++) {
-        let vertex = polygons_vertices[index];
-        let p_local = receiver.local_from_world * (vertex.xyz - receiver.p_world);
-        if vertex.w > 0.0 {
-            walk = PolygonsWalk(
-                ltc_begin(p_local), walk.sums, walk.turns, walk.vector, p_local, p_local, !MATERIAL_NORMAL,
-            );
-        } else if MATERIAL_NORMAL {
-            walk = polygons_walk_above(walk, receiver, p_local, vertex.w < 0.0);
-        } else {
-            walk = polygons_walk(walk, receiver, p_local);
-        }
+    if is_quad {
+        let first = light.first_vertex;
+        walk.outline = ltc_begin(polygons_local(receiver, first + 3u));
+        walk = polygons_walk(walk, receiver, polygons_local(receiver, first));
+        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 1u));
+        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 2u));
+        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 3u));
+    } else {
+        walk = polygons_walk_all(walk, receiver, light);
     }
     let turn = walk.turns.xy;
     return vec4f(
@@ -112,6 +110,29 @@ fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight) -> vec4
         ltc_form_factor(walk.sums.z, turn, receiver.sheen, side),
         polygons_mean_cosine(ltc_vector(walk.vector, turn, side)),
     );
+}
+
+fn polygons_local(receiver: LightsReceiver, index: u32) -> vec3f {
+    return receiver.local_from_world * (polygons_vertices[index].xyz - receiver.p_world);
+}
+
+// Any number of outlines and vertices.
+fn polygons_walk_all(start: PolygonsWalk, receiver: LightsReceiver, light: PolygonsLight) -> PolygonsWalk {
+    var walk = start;
+    for (var index = light.first_vertex; index < light.end_vertex; index++) {
+        let mark = polygons_vertices[index].w;
+        let p_local = polygons_local(receiver, index);
+        if mark > 0.0 {
+            walk = PolygonsWalk(
+                ltc_begin(p_local), walk.sums, walk.turns, walk.vector, p_local, p_local, !MATERIAL_NORMAL,
+            );
+        } else if MATERIAL_NORMAL {
+            walk = polygons_walk_above(walk, receiver, p_local, mark < 0.0);
+        } else {
+            walk = polygons_walk(walk, receiver, p_local);
+        }
+    }
+    return walk;
 }
 
 // The mean cosine of a light's directions, weighted by the cosine, from its vector irradiance under unit radiance over pi (whose z is

@@ -5,6 +5,7 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 
+use super::lights::LightKinds;
 use super::materials::Look;
 use crate::scene::{Bounds, Instance, Light, Scene, Settings};
 
@@ -27,6 +28,7 @@ pub(super) struct Variant {
     pub look: Look,
     /// Which of [`Attributes`] the mesh has; none where they are not needed.
     pub attributes: Attributes,
+    pub lights: LightKinds,
     /// The transform mirrors: front faces wind clockwise.
     pub mirrored: bool,
 }
@@ -42,7 +44,7 @@ pub(super) struct Attributes {
 }
 
 impl Variant {
-    fn new(scene: &Scene, settings: &Settings, instance: &Instance) -> Self {
+    fn new(scene: &Scene, settings: &Settings, lights: LightKinds, instance: &Instance) -> Self {
         let mesh = &scene.meshes[instance.mesh];
         let look = Look::new(mesh.material, &scene.materials[mesh.material], settings);
         let attributes = match look.textures != 0 || !mesh.colors.is_empty() {
@@ -54,7 +56,7 @@ impl Variant {
                 colors: !mesh.colors.is_empty(),
             },
         };
-        Self { look, attributes, mirrored: instance.mirrors() }
+        Self { look, attributes, lights, mirrored: instance.mirrors() }
     }
 }
 
@@ -81,9 +83,10 @@ impl Draws {
     pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
         let mut lights = vec![None; scene.instances.len()];
         scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
+        let kinds = LightKinds::of(scene);
         let is_hidden = |index: usize| lights[index].is_some() && !settings.lights_visible;
         let variants: Vec<Variant> =
-            scene.instances.iter().map(|instance| Variant::new(scene, settings, instance)).collect();
+            scene.instances.iter().map(|instance| Variant::new(scene, settings, kinds, instance)).collect();
         let key = |&index: &usize| {
             (is_hidden(index), variants[index].look.blend, variants[index], scene.instances[index].mesh)
         };

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
-use crate::scene::{Light, Polygon, PunctualKind, PunctualLight};
+use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
 
 /// `PolygonsLight` of `polygons.wgsl`.
 #[repr(C)]
@@ -37,36 +37,83 @@ pub(super) struct GpuPunctual {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuCounts {
-    pub polygons: u32,
-    pub punctual: u32,
+    quads: u32,
+    polygons: u32,
+    punctual: u32,
 }
 
-/// The lights' polygons, and the vertices of their outlines: each outline's first vertex is marked by w = 1 and comes
-/// again at its end, marked by -1. Black ones light nothing and are left out.
-pub(super) fn polygons(lights: &[Light]) -> (Vec<GpuPolygon>, Vec<Vec4>) {
-    let mut polygons = Vec::new();
-    let mut vertices: Vec<Vec4> = Vec::new();
-    for light in lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
-        for polygon in &light.polygons {
-            let first_vertex = vertices.len() as u32;
-            for contour in &polygon.contours {
-                vertices.extend(contour.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
-                vertices.extend(contour.first().map(|first| first.extend(-1.0)));
-            }
-            let (center, radius) = sphere(polygon);
-            polygons.push(GpuPolygon {
-                radiance: light.radiance,
-                two_sided: light.two_sided.into(),
-                normal: polygon.normal,
-                first_vertex,
-                center,
-                radius,
-                end_vertex: vertices.len() as u32,
-                padding: [0; 3],
-            });
+/// Which kinds of lights there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct LightKinds {
+    /// Polygons of one outline of four vertices.
+    pub quads: bool,
+    /// Any others.
+    pub polygons: bool,
+    pub punctual: bool,
+}
+
+impl LightKinds {
+    pub fn of(scene: &Scene) -> Self {
+        let lit = || scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO);
+        let mut polygons = lit().flat_map(|light| &light.polygons);
+        Self {
+            quads: polygons.clone().any(is_quad),
+            polygons: polygons.any(|polygon| !is_quad(polygon)),
+            punctual: !scene.punctual_lights.is_empty(),
         }
     }
-    (polygons, vertices)
+}
+
+fn is_quad(polygon: &Polygon) -> bool {
+    polygon.contours.len() == 1 && polygon.contours[0].len() == 4
+}
+
+/// The lights of a scene as the shaders walk through them.
+pub(super) struct GpuLights {
+    pub counts: GpuCounts,
+    /// Quads first.
+    pub polygons: Vec<GpuPolygon>,
+    /// Outlines: each one's first vertex is marked by w = 1 and comes again at its end, marked by -1.
+    pub vertices: Vec<Vec4>,
+    pub punctual: Vec<GpuPunctual>,
+}
+
+impl GpuLights {
+    pub fn new(scene: &Scene) -> Self {
+        let (mut polygons, mut vertices) = (Vec::new(), Vec::new());
+        let mut add = |quads: bool| {
+            // Black ones light nothing and are left out.
+            for light in scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
+                let wanted = light.polygons.iter().filter(|polygon| is_quad(polygon) == quads);
+                polygons.extend(wanted.map(|polygon| gpu_polygon(light, polygon, &mut vertices)));
+            }
+            polygons.len() as u32
+        };
+        let (quads, all) = (add(true), add(false));
+        let punctual: Vec<GpuPunctual> = scene.punctual_lights.iter().map(one_punctual).collect();
+        let counts = GpuCounts { quads, polygons: all, punctual: punctual.len() as u32 };
+        Self { counts, polygons, vertices, punctual }
+    }
+}
+
+/// Adds the vertices of the polygon's outlines.
+fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>) -> GpuPolygon {
+    let first_vertex = vertices.len() as u32;
+    for contour in &polygon.contours {
+        vertices.extend(contour.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+        vertices.extend(contour.first().map(|first| first.extend(-1.0)));
+    }
+    let (center, radius) = sphere(polygon);
+    GpuPolygon {
+        radiance: light.radiance,
+        two_sided: light.two_sided.into(),
+        normal: polygon.normal,
+        first_vertex,
+        center,
+        radius,
+        end_vertex: vertices.len() as u32,
+        padding: [0; 3],
+    }
 }
 
 /// A sphere around a polygon. Its centre lies in the plane through the first vertex, so that both tell the same side of the light.
@@ -81,10 +128,6 @@ fn sphere(polygon: &Polygon) -> (Vec3, f32) {
     // Room for the rounding of the shader's comparison, which is one of world coordinates.
     let size = center.abs().max_element() + radius as f32;
     (center, radius as f32 + 1e-6 * size)
-}
-
-pub(super) fn punctual(lights: &[PunctualLight]) -> Vec<GpuPunctual> {
-    lights.iter().map(one_punctual).collect()
 }
 
 fn one_punctual(light: &PunctualLight) -> GpuPunctual {
@@ -126,7 +169,7 @@ mod tests {
             cone_scale,
             cone_offset
         });
-        let counts = members!(GpuCounts { polygons, punctual });
+        let counts = members!(GpuCounts { quads, polygons, punctual });
         for (name, size, members) in [
             ("PolygonsLight", size_of::<GpuPolygon>(), &polygon[..]),
             ("LightsPunctual", size_of::<GpuPunctual>(), punctual),

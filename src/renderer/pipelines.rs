@@ -15,7 +15,7 @@ pub(super) struct Pipelines {
 impl Pipelines {
     /// The pipeline of a variant; `culled` are the faces that it leaves out.
     pub fn make(&self, device: &Device, variant: &Variant, culled: Option<wgpu::Face>) -> RenderPipeline {
-        let Variant { look, attributes, mirrored } = *variant;
+        let Variant { look, attributes, lights, mirrored } = *variant;
         let number = |on: bool| f64::from(u8::from(on));
         let constants = [
             ("SURFACES_SHEEN", number(look.sheen)),
@@ -25,6 +25,9 @@ impl Pipelines {
             ("SURFACES_MASK", number(look.mask)),
             ("SURFACES_BLEND", number(look.blend)),
             ("SURFACES_FILTERED", number(self.radiance.samples > 1)),
+            ("LIGHTS_QUADS", number(lights.quads)),
+            ("LIGHTS_POLYGONS", number(lights.polygons)),
+            ("LIGHTS_PUNCTUAL", number(lights.punctual)),
             ("MATERIAL_TEXTURES", f64::from(look.textures)),
         ];
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };

@@ -8,7 +8,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 
 use super::draws::{Batch, Draws};
-use super::lights::{GpuCounts, polygons, punctual};
+use super::lights::{GpuCounts, GpuLights};
 use super::materials::factors;
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Mesh, Scene, Settings};
@@ -116,17 +116,16 @@ struct Contents {
 
 impl Contents {
     fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
-        let (polygons, light_vertices) = polygons(&scene.lights);
-        let punctual = punctual(&scene.punctual_lights);
+        let lights = GpuLights::new(scene);
         let materials: Vec<_> =
             scene.materials.iter().enumerate().map(|(index, material)| factors(index, material, settings)).collect();
         Self {
             draws: Draws::new(scene, settings, mesh_bounds),
             materials: bytes(&materials),
-            counts: GpuCounts { polygons: polygons.len() as u32, punctual: punctual.len() as u32 },
-            polygons: bytes(&polygons),
-            light_vertices: bytes(&light_vertices),
-            punctual: bytes(&punctual),
+            counts: lights.counts,
+            polygons: bytes(&lights.polygons),
+            light_vertices: bytes(&lights.vertices),
+            punctual: bytes(&lights.punctual),
         }
     }
 }
