@@ -93,7 +93,7 @@ fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight, is_quad
     }
     var walk: PolygonsWalk;
     walk.turns = vec4f(LTC_LEVEL, LTC_LEVEL);
-    if is_quad {
+    if is_quad && !MATERIAL_NORMAL {
         let first = light.first_vertex;
         walk.outline = ltc_begin(polygons_local(receiver, first + 3u));
         walk = polygons_walk(walk, receiver, polygons_local(receiver, first));
