@@ -143,17 +143,27 @@ fn the_reciprocal_rule_is_near_the_integral_over_the_light() {
         let material = Material { base_color: Vec3::ONE, sheen, ..plain() };
         let lobes = Lobes { sheen: false, diffuse: true, specular: false, emission: false };
         let settings = Settings { lobes, ..settings.clone() };
-        let stage = stage(material);
-        let picture = linear(&stage.scene(), &table, &settings, SIZE);
-        let truth = Truth::new(&stage, &table, &settings, SIZE);
-        for (index, pixel) in picture.pixels.iter().enumerate() {
-            let center = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(|at| f64::from(at) + 0.5);
-            if let Some(hit) = truth.at(center).filter(|hit| hit.radiance.x > 1e-3) {
-                worst = worst.max((f64::from(pixel[0]) / hit.radiance.x - 1.0).abs());
+        // A window, a ceiling, and a wall that reaches below the horizon.
+        let lights = [
+            ([0.6, 0.4], facing([0.7, 0.8, -1.3], ORIGIN)),
+            ([2.0, 2.0], facing([0.0, 0.9, 0.0], ORIGIN)),
+            ([1.5, 0.7], facing([0.0, 0.2, -1.6], [0.0, 0.2, 0.0])),
+        ];
+        for (half, place) in lights {
+            let floor = Thing::rectangle([1.5, 1.5], material.clone()).placed(facing(ORIGIN, UP));
+            let light = Thing::rectangle(half, glow([4.0, 3.0, 2.0])).placed(place);
+            let stage = Stage::new(vec![floor, light], looking([0.2, 0.5, 2.4], ORIGIN));
+            let picture = linear(&stage.scene(), &table, &settings, SIZE);
+            let truth = Truth::new(&stage, &table, &settings, SIZE);
+            for (index, pixel) in picture.pixels.iter().enumerate() {
+                let center = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(|at| f64::from(at) + 0.5);
+                if let Some(hit) = truth.at(center).filter(|hit| hit.radiance.x > 1e-2) {
+                    worst = worst.max((f64::from(pixel[0]) / hit.radiance.x - 1.0).abs());
+                }
             }
         }
     }
     println!("reciprocal: within {worst:.3} of the integral");
-    assert!(worst < 0.06, "{worst}");
+    assert!(worst < 0.12, "{worst}");
     assert!(worst > 1e-4, "an approximation is no integral: nothing was tested");
 }
