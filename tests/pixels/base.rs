@@ -157,7 +157,11 @@ fn the_reciprocal_rule_is_near_the_integral_over_the_light() {
             let truth = Truth::new(&stage, &table, &settings, SIZE);
             for (index, pixel) in picture.pixels.iter().enumerate() {
                 let center = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(|at| f64::from(at) + 0.5);
-                if let Some(hit) = truth.at(center).filter(|hit| hit.radiance.x > 1e-2) {
+                // Not at the floor's edges, which drivers shift.
+                let inside = [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]
+                    .iter()
+                    .all(|[x, y]| truth.at([center[0] + x, center[1] + y]).is_some());
+                if let Some(hit) = truth.at(center).filter(|hit| inside && hit.radiance.x > 1e-2) {
                     worst = worst.max((f64::from(pixel[0]) / hit.radiance.x - 1.0).abs());
                 }
             }
