@@ -120,18 +120,19 @@ fn lights_add_punctual(
     receiver: LightsReceiver, incident: LightsIncident, light: LightsPunctual, base_weight: f32,
 ) -> LightsIncident {
     let way = light.has_place * (light.position - receiver.p_world) - (1.0 - light.has_place) * light.direction;
-    let square = max(dot(way, way), 1e-20);
+    // A light is never nearer than a micrometre: at the point itself it comes from nowhere.
+    let square = max(dot(way, way), 1e-12);
     let wo = way * inverseSqrt(square);
     let local = receiver.local_from_world * wo;
     // Falls off to nothing at the range as KHR_lights_punctual recommends.
     let reach = square * light.inverse_range_squared;
     let cone = saturate(light.cone_scale * dot(light.direction, -wo) + light.cone_offset);
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
-    let is_above = f32(dot(receiver.up, local) > 0.0);
+    let is_above = dot(receiver.up, local) > 0.0;
     let densities = vec4f(
         ltc_density(POLYGONS_IDENTITY, local), ltc_density(receiver.ggx, local), ltc_density(receiver.sheen, local), 0.0,
     );
-    let form_factors = is_above * densities + vec4f(vec3f(0.0), max(local.z, 0.0));
+    let form_factors = select(vec4f(0.0), densities, is_above) + vec4f(vec3f(0.0), max(local.z, 0.0));
     return lights_add(receiver, incident, falloff * light.intensity, form_factors, base_weight);
 }
 

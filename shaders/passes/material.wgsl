@@ -55,8 +55,10 @@ struct MaterialSurface {
     sheen_weight: f32,
     sheen_alpha: f32,
     emission: vec3f,
-    // As interpolated and filtered: not of unit length.
+    // As interpolated: not of unit length.
     normal: vec3f,
+    // Of the mean of the unit normals that the normal map's texel stands for.
+    normal_length: f32,
     occlusion: f32,
     alpha_cutoff: f32,
     layering: u32,
@@ -95,7 +97,7 @@ fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurf
     return MaterialSurface(
         (*factors).base_color.rgb, (*factors).base_color.a, (*factors).metallic, (*factors).roughness, (*factors).f0,
         (*factors).specular, (*factors).sheen_color * (*factors).sheen_weight, (*factors).sheen_weight,
-        pow((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, (*factors).alpha_cutoff,
+        pow((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, 1.0, (*factors).alpha_cutoff,
         (*factors).layering, (*factors).manual,
     );
 }
@@ -131,8 +133,9 @@ fn material_textured(
     }
     if MATERIAL_NORMAL {
         let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
-        let texel = 2.0 * textureSample(material_normal, material_normal_sampler, uv).xyz - 1.0;
-        let mapped = texel * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
+        let texel = textureSample(material_normal, material_normal_sampler, uv);
+        surface.normal_length = 1.0 - (1.0 - texel.a) * (1.0 - texel.a);
+        let mapped = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
         let across = tangent.w * cross(normal, tangent.xyz);
         surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
     }
@@ -171,8 +174,6 @@ fn material_textured(
         surface.sheen_color *= weight;
         surface.sheen_weight *= weight;
     }
-    // Tints may be greater than 1.
-    surface.f0 = min(surface.f0, vec3f(surface.f90));
     return surface;
 }
 

@@ -31,6 +31,8 @@ override SURFACES_MASK: bool = false;
 override SURFACES_BLEND: bool = false;
 // Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.
 override SURFACES_FILTERED: bool = true;
+// The greatest number that the target holds.
+override SURFACES_GREATEST: f32 = 65504.0;
 
 @group(0) @binding(0) var<uniform> surfaces_frame: SurfacesFrame;
 @group(0) @binding(1) var surfaces_sheen_table: texture_2d<f32>;
@@ -135,14 +137,14 @@ fn surfaces_radiance(
         let down = dpdy(unit);
         mu = surfaces_visible_mean(dot(normal, view), abs(dot(right, view)) + abs(dot(down, view)));
         let variance = 0.25 * (dot(right, right) + dot(down, down));
-        roughness = surfaces_filtered_roughness(roughness, variance, length(surface.normal));
+        roughness = surfaces_filtered_roughness(roughness, variance, surface.normal_length);
     }
     if SURFACES_MASK && surface.opacity < surface.alpha_cutoff {
         discard;
     }
     let opacity = select(1.0, surface.opacity, SURFACES_BLEND);
     if SURFACES_UNLIT {
-        return vec4f(opacity * surfaces_frame.gain * surface.base_color, opacity);
+        return surfaces_stored(surface.base_color, opacity);
     }
     let sheen = sheen_lobe(surfaces_sheen_table, surface.sheen_alpha, mu);
     let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);
@@ -155,10 +157,12 @@ fn surfaces_radiance(
     var specular = vec3f(0.0);
     var diffuse = (1.0 - surface.metallic) * surface.base_color;
     if SURFACES_SPECULAR {
-        let f0 = mix(surface.f0, surface.base_color, surface.metallic);
+        // Tints may be greater than 1.
+        let dielectric_f0 = min(surface.f0, vec3f(surface.f90));
+        let f0 = mix(dielectric_f0, surface.base_color, surface.metallic);
         let f90 = vec3f(mix(surface.f90, 1.0, surface.metallic));
         specular = surfaces_frame.lobes.z * ggx_albedo(ggx, f0, f90);
-        diffuse *= ggx_base_weight(ggx_albedo(ggx, surface.f0, vec3f(surface.f90)));
+        diffuse *= ggx_base_weight(ggx_albedo(ggx, dielectric_f0, vec3f(surface.f90)));
     }
     diffuse *= surfaces_frame.lobes.y;
     let base_weight = material_base_weight(surface, sheen.albedo);
@@ -168,7 +172,12 @@ fn surfaces_radiance(
     let radiance = surfaces_frame.lobes.w * surface.emission
         + diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
         + reflected * (incident.sheen + surface.occlusion * surfaces_frame.ambient);
-    return vec4f(opacity * surfaces_frame.gain * radiance, opacity);
+    return surfaces_stored(radiance, opacity);
+}
+
+// As the target holds it: opacity times radiance, none of it infinite, which blending would make nothing of.
+fn surfaces_stored(radiance: vec3f, opacity: f32) -> vec4f {
+    return vec4f(opacity * min(surfaces_frame.gain * radiance, vec3f(SURFACES_GREATEST)), opacity);
 }
 
 // Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. Where the sheen is
@@ -181,8 +190,7 @@ fn surfaces_visible_mean(mu: f32, width: f32) -> f32 {
 // Normals that vary over a pixel widen the specular lobe (Tokuyoshi and Kaplanyan 2019, eqs. 4 and 5: the half vector's variance from
 // the normal's derivatives), as do those that a mipmap has averaged, whose mean is shorter than 1 (Toksvig 2005).
 fn surfaces_filtered_roughness(roughness: f32, variance: f32, mean_length: f32) -> f32 {
-    let size = clamp(mean_length, 0.5, 1.0);
-    let mapped = select(0.0, 2.0 * (1.0 - size) / size, MATERIAL_NORMAL);
+    let mapped = 2.0 * (1.0 - mean_length) / max(mean_length, 0.5);
     let alpha = roughness * roughness;
     return sqrt(sqrt(min(alpha * alpha + min(variance + mapped, 0.18), 1.0)));
 }

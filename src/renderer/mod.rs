@@ -43,8 +43,8 @@ pub enum RenderError {
     TooLarge { what: String, bytes: u64, limit: u64 },
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
     Size { size: [u32; 2], limit: u32 },
-    #[error("this adapter cannot draw 32-bit floats with {0} samples a pixel: use --msaa 1 or another --adapter")]
-    Multisampling(u32),
+    #[error("this adapter cannot draw {what} with {samples} samples a pixel: use {instead}")]
+    Multisampling { what: &'static str, samples: u32, instead: &'static str },
     #[error("the device did not hand the picture over ({0}): try a smaller --size or another --adapter")]
     Readback(String),
 }

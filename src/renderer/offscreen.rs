@@ -26,7 +26,8 @@ impl Offscreen {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let radiance = RadianceFormat::display(samples);
+        let cannot = || cannot_draw("floats", samples);
+        let radiance = RadianceFormat::display(&gpu.adapter, samples).ok_or_else(cannot)?;
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
@@ -39,7 +40,8 @@ impl Offscreen {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or(RenderError::Multisampling(samples))?;
+        let cannot = || cannot_draw("32-bit floats", samples);
+        let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or_else(cannot)?;
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
@@ -151,6 +153,11 @@ impl Offscreen {
         let range = buffer.get_mapped_range(..).map_err(|error| RenderError::Readback(error.to_string()))?;
         Ok(range.to_vec())
     }
+}
+
+fn cannot_draw(what: &'static str, samples: u32) -> RenderError {
+    let instead = if samples > 1 { "--msaa 1 or another --adapter" } else { "another --adapter" };
+    RenderError::Multisampling { what, samples, instead }
 }
 
 /// Resolves when the buffer can be read. Somebody has to poll the device meanwhile: a browser does, elsewhere

@@ -25,6 +25,7 @@ impl Pipelines {
             ("SURFACES_MASK", number(look.mask)),
             ("SURFACES_BLEND", number(look.blend)),
             ("SURFACES_FILTERED", number(self.radiance.samples > 1)),
+            ("SURFACES_GREATEST", self.radiance.greatest()),
             ("LIGHTS_QUADS", number(lights.quads)),
             ("LIGHTS_POLYGONS", number(lights.polygons)),
             ("LIGHTS_PUNCTUAL", number(lights.punctual)),

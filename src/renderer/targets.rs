@@ -15,16 +15,34 @@ pub struct RadianceFormat {
 }
 
 impl RadianceFormat {
-    /// For pictures that are looked at.
-    pub fn display(samples: u32) -> Self {
-        Self { texture: TextureFormat::Rgba16Float, samples }
+    /// For pictures that are looked at; none where the adapter cannot multisample those.
+    pub fn display(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
+        let format = Self { texture: TextureFormat::Rgba16Float, samples };
+        format.is_drawn_by(adapter).then_some(format)
     }
 
-    /// For linear pictures: 32-bit floats; none where the adapter cannot multisample those.
+    /// For linear pictures: 32-bit floats; none where the adapter cannot draw or multisample those.
     pub fn linear(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
-        let full = Self { texture: TextureFormat::Rgba32Float, samples };
-        let flags = adapter.get_texture_format_features(full.texture).flags;
-        flags.sample_count_supported(samples).then_some(full)
+        let format = Self { texture: TextureFormat::Rgba32Float, samples };
+        format.is_drawn_by(adapter).then_some(format)
+    }
+
+    /// The greatest number that a texel holds.
+    pub(super) fn greatest(self) -> f64 {
+        match self.texture {
+            TextureFormat::Rgba16Float => 65504.0,
+            _ => f32::MAX.into(),
+        }
+    }
+
+    fn is_drawn_by(self, adapter: &wgpu::Adapter) -> bool {
+        let features = adapter.get_texture_format_features(self.texture);
+        // OpenGL has no textures of several samples that can be read: wgpu makes black ones of them.
+        let is_read = self.samples == 1 || adapter.get_info().backend != wgpu::Backend::Gl;
+        features.allowed_usages.contains(TextureUsages::RENDER_ATTACHMENT)
+            && features.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE)
+            && features.flags.sample_count_supported(self.samples)
+            && is_read
     }
 }
 

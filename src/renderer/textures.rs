@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use glam::Vec3;
 use rayon::prelude::*;
 use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView};
@@ -46,7 +47,7 @@ pub(super) fn bind_groups(
     let mut pool = Pool::new(device, queue, scene);
     let textured = scene.materials.iter().enumerate().filter(|(_, material)| is_textured(material));
     let groups = textured.map(|(index, material)| (index, pool.bind_group(layout, material))).collect();
-    (groups, pool.bind_group(layout, &Material::matte("", glam::Vec3::ONE)))
+    (groups, pool.bind_group(layout, &Material::matte("", Vec3::ONE)))
 }
 
 fn is_textured(material: &Material) -> bool {
@@ -59,15 +60,15 @@ struct Pool<'a> {
     queue: &'a Queue,
     scene: &'a Scene,
     white: TextureView,
-    /// By image, and whether it is read as colours.
-    textures: HashMap<(usize, bool), TextureView>,
+    /// By image and what its texels are.
+    textures: HashMap<(usize, Encoding), TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
 }
 
 impl<'a> Pool<'a> {
     fn new(device: &'a Device, queue: &'a Queue, scene: &'a Scene) -> Self {
         let image = Image { name: "white".to_owned(), width: 1, height: 1, texels: vec![[255; 4]] };
-        let white = upload(device, queue, &image, false);
+        let white = upload(device, queue, &image, Encoding::Numbers);
         Self { device, queue, scene, white, textures: HashMap::new(), samplers: HashMap::new() }
     }
 
@@ -77,9 +78,9 @@ impl<'a> Pool<'a> {
             let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
             self.samplers.entry(sampler).or_insert_with(|| make_sampler(self.device, &sampler));
             if let Some(texture) = texture {
-                let (image, is_color) = (&self.scene.images[texture.image], slot.is_color());
-                let make = || upload(self.device, self.queue, image, is_color);
-                self.textures.entry((texture.image, is_color)).or_insert_with(make);
+                let (image, encoding) = (&self.scene.images[texture.image], Encoding::of(slot));
+                let make = || upload(self.device, self.queue, image, encoding);
+                self.textures.entry((texture.image, encoding)).or_insert_with(make);
             }
         }
         let transforms = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -92,7 +93,7 @@ impl<'a> Pool<'a> {
             .into_iter()
             .flat_map(|slot| {
                 let texture = material.texture(slot).map(|texture| self.scene.textures[texture.texture]);
-                let view = texture.map_or(&self.white, |texture| &self.textures[&(texture.image, slot.is_color())]);
+                let view = texture.map_or(&self.white, |texture| &self.textures[&(texture.image, Encoding::of(slot))]);
                 let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
                 let binding = slot as u32;
                 [
@@ -132,18 +133,22 @@ fn make_sampler(device: &Device, sampler: &Sampler) -> wgpu::Sampler {
         mag_filter: filter(sampler.magnify),
         min_filter: filter(sampler.minify),
         mipmap_filter,
-        lod_max_clamp: if sampler.mipmaps.is_some() { 32.0 } else { 0.0 },
+        // 0 would leave only the magnifying filter.
+        lod_max_clamp: if sampler.mipmaps.is_some() { 32.0 } else { 0.25 },
         anisotropy_clamp: if is_smooth { ANISOTROPY } else { 1 },
         ..Default::default()
     })
 }
 
 /// The image with all its mipmaps; those larger than the device takes are left out.
-fn upload(device: &Device, queue: &Queue, image: &Image, is_color: bool) -> TextureView {
+fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let mut base = Level { size: [image.width, image.height], texels: image.texels.clone() };
+    if encoding == Encoding::Normals {
+        base.texels.iter_mut().for_each(|texel| texel[3] = 255);
+    }
     while base.size.iter().any(|side| *side > limit) {
-        base = base.next(is_color);
+        base = base.next(encoding);
     }
     let count = u32::BITS - base.size[0].max(base.size[1]).leading_zeros();
     let extent = |[width, height]: [u32; 2]| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
@@ -153,7 +158,7 @@ fn upload(device: &Device, queue: &Queue, image: &Image, is_color: bool) -> Text
         mip_level_count: count,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: if is_color { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm },
+        format: encoding.format(),
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
@@ -163,9 +168,74 @@ fn upload(device: &Device, queue: &Queue, image: &Image, is_color: bool) -> Text
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * level.size[0]), rows_per_image: None };
         let target = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
         queue.write_texture(target, level.texels.as_flattened(), layout, extent(level.size));
-        level = level.next(is_color);
+        level = level.next(encoding);
     }
     texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// What the bytes of a texture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Encoding {
+    /// sRGB; opacity is a number.
+    Colors,
+    Numbers,
+    /// Unit normals; a mipmap's alpha keeps the length of the mean that each of its texels stands for: see [`length_from`].
+    Normals,
+}
+
+impl Encoding {
+    fn of(slot: TextureSlot) -> Self {
+        match slot {
+            TextureSlot::Normal => Self::Normals,
+            slot if slot.is_color() => Self::Colors,
+            _ => Self::Numbers,
+        }
+    }
+
+    fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Colors => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Self::Numbers | Self::Normals => wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+
+    /// What means are taken of.
+    fn decode(self, byte: usize) -> f32 {
+        match self {
+            Self::Colors => linear_from_srgb(byte),
+            Self::Numbers => byte as f32,
+            Self::Normals => byte as f32 / 127.5 - 1.0,
+        }
+    }
+
+    fn encode(self, mean: [f32; 4]) -> [u8; 4] {
+        let rounded = |value: f32| (value + 0.5) as u8;
+        let [r, g, b, a] = mean;
+        match self {
+            Self::Colors => {
+                let [r, g, b] = [r, g, b].map(|linear| rounded(255.0 * crate::picture::srgb_from_linear(linear)));
+                [r, g, b, rounded(a)]
+            }
+            Self::Numbers => mean.map(rounded),
+            Self::Normals => {
+                let length = Vec3::new(r, g, b).length().min(1.0);
+                let [r, g, b] = (Vec3::new(r, g, b).normalize_or(Vec3::Z) * 127.5 + 127.5).to_array().map(rounded);
+                [r, g, b, rounded(255.0 * (1.0 - (1.0 - length).sqrt()))]
+            }
+        }
+    }
+}
+
+/// The length of a mean of unit normals from the alpha that keeps it, finest near 1, where it tells most.
+fn length_from(alpha: u8) -> f32 {
+    let rest = 1.0 - f32::from(alpha) / 255.0;
+    1.0 - rest * rest
+}
+
+/// A normal as bytes have rounded it, of the length that it stands for.
+fn normal_of_length([x, y, z, _]: [f32; 4], length: f32) -> [f32; 4] {
+    let normal = length * Vec3::new(x, y, z).normalize_or(Vec3::Z);
+    normal.extend(0.0).to_array()
 }
 
 /// A texture at one of its sizes.
@@ -176,36 +246,35 @@ struct Level {
 
 impl Level {
     /// Half the size, rounded down: each texel is the mean over the area that it covers, of colours in linear light.
-    fn next(&self, is_color: bool) -> Self {
+    fn next(&self, encoding: Encoding) -> Self {
         let [width, height] = self.size.map(|side| (side / 2).max(1));
-        let linear: [f32; 256] =
-            std::array::from_fn(|byte| if is_color { linear_from_srgb(byte) } else { byte as f32 });
+        let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte));
         let columns: Vec<Span> = (0..width).map(|x| Span::new(x, width, self.size[0])).collect();
         let row = |y: u32| {
             let rows = Span::new(y, height, self.size[1]);
-            columns.iter().map(move |columns| (rows, *columns)).map(|(rows, columns)| self.mean(rows, columns, &linear))
+            columns
+                .iter()
+                .map(move |columns| (rows, *columns))
+                .map(|(rows, columns)| self.mean((rows, columns), encoding, &linear))
         };
-        let encode = |mean: [f32; 4]| {
-            let mut texel = mean.map(|channel| (channel + 0.5) as u8);
-            if is_color {
-                for (channel, mean) in texel.iter_mut().zip(&mean[..3]) {
-                    *channel = (255.0 * crate::picture::srgb_from_linear(*mean) + 0.5) as u8;
-                }
-            }
-            texel
-        };
-        let texels = (0..height).into_par_iter().flat_map_iter(|y| row(y).map(encode).collect::<Vec<_>>()).collect();
+        let texels = (0..height)
+            .into_par_iter()
+            .flat_map_iter(|y| row(y).map(|mean| encoding.encode(mean)).collect::<Vec<_>>())
+            .collect();
         Self { size: [width, height], texels }
     }
 
     /// The mean over some rows and columns; opacity is never encoded.
-    fn mean(&self, rows: Span, columns: Span, linear: &[f32; 256]) -> [f32; 4] {
+    fn mean(&self, (rows, columns): (Span, Span), encoding: Encoding, linear: &[f32; 256]) -> [f32; 4] {
         let mut mean = [0.0; 4];
         for (y, row_weight) in rows.weights() {
             for (x, column_weight) in columns.weights() {
                 let [r, g, b, a] = self.texels[y * self.size[0] as usize + x];
                 let weight = row_weight * column_weight;
-                let values = [linear[r as usize], linear[g as usize], linear[b as usize], f32::from(a)];
+                let mut values = [linear[r as usize], linear[g as usize], linear[b as usize], f32::from(a)];
+                if encoding == Encoding::Normals {
+                    values = normal_of_length(values, length_from(a));
+                }
                 mean.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
             }
         }
@@ -256,11 +325,12 @@ mod tests {
             Level { size, texels: (0..size[0] * size[1]).map(texel).collect() }
         };
         // Half the light is 188 in sRGB, 128 as a number; opacity is one.
-        assert_eq!(checker([8, 4]).next(true).texels, vec![[188, 188, 188, 128]; 8]);
-        assert_eq!(checker([8, 4]).next(false).texels, vec![[128; 4]; 8]);
-        let odd = Level { size: [3, 1], texels: vec![[30; 4], [60; 4], [90; 4]] }.next(false);
+        assert_eq!(checker([8, 4]).next(Encoding::Colors).texels, vec![[188, 188, 188, 128]; 8]);
+        assert_eq!(checker([8, 4]).next(Encoding::Numbers).texels, vec![[128; 4]; 8]);
+        let odd = Level { size: [3, 1], texels: vec![[30; 4], [60; 4], [90; 4]] }.next(Encoding::Numbers);
         assert_eq!((odd.size, odd.texels), ([1, 1], vec![[60; 4]]));
-        let five = Level { size: [5, 1], texels: vec![[0; 4], [0; 4], [100; 4], [0; 4], [0; 4]] }.next(false);
+        let five =
+            Level { size: [5, 1], texels: vec![[0; 4], [0; 4], [100; 4], [0; 4], [0; 4]] }.next(Encoding::Numbers);
         assert_eq!((five.size, five.texels), ([2, 1], vec![[20; 4]; 2]));
     }
 
@@ -273,8 +343,28 @@ mod tests {
         let mut level = Level { size: [37, 21], texels };
         let whole = mean(&level);
         while level.size != [1, 1] {
-            level = level.next(false);
+            level = level.next(Encoding::Numbers);
             assert!((mean(&level) - whole).abs() < 1.0, "{:?}", level.size);
+        }
+    }
+
+    #[test]
+    fn mipmaps_of_normals_keep_the_length_of_their_mean() {
+        let lean = |x: f32| {
+            let normal = Vec3::new(x, 0.0, 1.0).normalize() * 127.5 + 127.5;
+            [normal.x.round() as u8, 128, normal.z.round() as u8, 255]
+        };
+        let mean = |level: &Level| {
+            let [r, g, b, a] = level.texels[0];
+            (Vec3::new(f32::from(r), f32::from(g), f32::from(b)) / 127.5 - 1.0, length_from(a))
+        };
+        let flat = Level { size: [2, 2], texels: vec![lean(0.4); 4] }.next(Encoding::Normals);
+        assert!(mean(&flat).1 > 0.9999, "nothing was averaged");
+        let texels = vec![lean(1.0), lean(-1.0), lean(-1.0), lean(1.0), lean(1.0), lean(-1.0), lean(-1.0), lean(1.0)];
+        let bumpy = Level { size: [4, 2], texels }.next(Encoding::Normals);
+        for level in [&bumpy, &bumpy.next(Encoding::Normals)] {
+            let (normal, length) = mean(level);
+            assert!(normal.distance(Vec3::Z) < 0.01 && (length - 0.5_f32.sqrt()).abs() < 0.005, "{normal} {length}");
         }
     }
 }

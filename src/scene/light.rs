@@ -6,7 +6,7 @@ pub struct Light {
     pub name: String,
     /// Linear Rec. 709, >= 0; of a textured emitter the mean over it.
     pub radiance: Vec3,
-    /// Mean of the emission texture over the emitter, linear; 1 where there is none. 0 in channels that do not glow.
+    /// Mean of the emission texture over the emitter, linear; 1 where there is none.
     pub texture_mean: Vec3,
     /// Emits from both faces; otherwise only to the side of its polygons' normals.
     pub two_sided: bool,

@@ -47,7 +47,9 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
                 notices.add(kind, || instance.name.clone());
             }
             let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
-            let texture_mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
+            // Channels that do not glow have no mean: 1, so that they may be given one.
+            let mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
+            let texture_mean = Vec3::select(material.emission.cmpgt(Vec3::ZERO), mean, Vec3::ONE);
             let two_sided = material.double_sided;
             scene.lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
         }

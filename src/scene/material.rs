@@ -67,10 +67,11 @@ impl Material {
         self.textures[slot as usize]
     }
 
-    /// Reflectance of a dielectric along the normal, each in [0, 1]: Fresnel's ((n - 1) / (n + 1))^2, tinted and weakened.
+    /// Reflectance of a dielectric along the normal: Fresnel's ((n - 1) / (n + 1))^2, tinted and weakened. With its textures' share it
+    /// is cut at `specular`'s, which a tint may pass.
     pub fn dielectric_f0(&self) -> Vec3 {
         let normal = ((self.ior - 1.0) / (self.ior + 1.0)).powi(2);
-        (normal * self.specular_color).min(Vec3::ONE) * self.specular
+        normal * self.specular_color * self.specular
     }
 }
 

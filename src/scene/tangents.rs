@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
-use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
+use glam::{Affine2, DVec2, DVec3, Vec2, Vec3, Vec4};
 
 use super::Mesh;
 
@@ -18,19 +18,20 @@ const HUB_MAX: u32 = 128;
 /// In place of an index: there is none.
 const NONE: u32 = u32::MAX;
 
-/// Gives a mesh tangents along the u of a set of its texture coordinates; vertices whose triangles do not agree are
-/// split. Where the coordinates leave a direction open it is any that is perpendicular to the normal.
-pub(super) fn compute(mesh: &mut Mesh, set: usize) {
+/// Gives a mesh tangents along the u of a normal map, as a set of texture coordinates and a transform of them place it; vertices whose
+/// triangles do not agree are split. Where the coordinates leave a direction open it is any that is perpendicular to the normal.
+pub(super) fn compute(mesh: &mut Mesh, set: usize, uv_from_tex_coord: Affine2) {
     if mesh.tex_coords[set].is_empty() {
         mesh.tangents = mesh.normals.iter().map(|&normal| frame(normal, Vec3::ZERO, 1.0)).collect();
         return;
     }
+    let coords: Vec<Vec2> = mesh.tex_coords[set].iter().map(|&at| uv_from_tex_coord.transform_point2(at)).collect();
     mesh.tangents = vec![Vec4::ZERO; mesh.positions.len()];
     // Vertices that have been split hang on the one that they came from.
     let mut next = vec![NONE; mesh.positions.len()];
     for start in (0..mesh.indices.len()).step_by(3 * BLOCK) {
         let end = (start + 3 * BLOCK).min(mesh.indices.len());
-        let tangents = Block::new(mesh, set, &mesh.indices[start..end]).tangents();
+        let tangents = Block::new(mesh, &coords, &mesh.indices[start..end]).tangents();
         for (corner, tangent) in (start..end).zip(tangents) {
             mesh.indices[corner] = vertex_with(mesh, &mut next, mesh.indices[corner], tangent);
         }
@@ -103,8 +104,8 @@ struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    fn new(mesh: &'a Mesh, set: usize, indices: &'a [u32]) -> Self {
-        Self { mesh, coords: &mesh.tex_coords[set], indices, tangents: Vec::new() }
+    fn new(mesh: &'a Mesh, coords: &'a [Vec2], indices: &'a [u32]) -> Self {
+        Self { mesh, coords, indices, tangents: Vec::new() }
     }
 
     /// A tangent for each corner.

@@ -57,7 +57,9 @@ impl Frame {
             wgpu::SurfaceConfiguration { format: plain.unwrap_or(configuration.format), ..configuration };
         surface.configure(&gpu.device, &configuration);
         let software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let radiance = RadianceFormat::display(if software { SAMPLES_IN_SOFTWARE } else { SAMPLES });
+        let samples = if software { SAMPLES_IN_SOFTWARE } else { SAMPLES };
+        let radiance = RadianceFormat::display(&gpu.adapter, samples).or(RadianceFormat::display(&gpu.adapter, 1));
+        let radiance = radiance.ok_or_else(|| ViewerError::Window("the adapter cannot draw floats".to_owned()))?;
         let format = Format { radiance, output: configuration.format, measured: false };
         let renderer = Renderer::new(&gpu, format, table, &state.scene, &state.settings)?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
@@ -177,8 +179,9 @@ impl Frame {
     pub fn screenshot(&self, state: &State, table: &LtcTable) -> String {
         let Some(path) = free_name() else { return "velour-001.png to velour-999.png are taken".to_owned() };
         let size = [self.place.width, self.place.height];
+        let samples = RadianceFormat::display(&self.gpu.adapter, SAMPLES).map_or(1, |format| format.samples);
         let picture = || -> Result<Vec<u8>, String> {
-            let renderer = Offscreen::for_display(&self.gpu, SAMPLES, table, &state.scene, &state.settings);
+            let renderer = Offscreen::for_display(&self.gpu, samples, table, &state.scene, &state.settings);
             let mut renderer = renderer.map_err(|error| error.to_string())?;
             let camera = state.orbit.camera();
             let image = self.gpu.block_on(renderer.display(&self.gpu, &camera, size, &state.settings, state.tone));

@@ -46,6 +46,10 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
     if Some(sheen) == before || (before.is_none() && sheen.color == Vec3::ZERO) {
         return Change::None;
     }
+    // A layer of no weight would show nothing of what is changed.
+    if sheen.weight == 0.0 {
+        sheen.weight = 1.0;
+    }
     state.scene.materials[state.material].sheen = Some(sheen);
     Change::Scene
 }

@@ -8,7 +8,7 @@ use gltf::json::validation::Checked::Valid;
 use super::Fault;
 use super::accessor::{Accessors, Numbers};
 use crate::scene::notices::Notices;
-use crate::scene::{Material, TextureSlot};
+use crate::scene::{Material, TextureSlot, TextureUse};
 
 const WHITE: [u16; 4] = [u16::MAX; 4];
 
@@ -20,8 +20,8 @@ pub struct Attributes {
     tangents: Option<usize>,
     tex_coords: [Option<usize>; 2],
     colors: Option<usize>,
-    /// Where the normal texture's coordinates are, if there is one.
-    pub normal_set: Option<usize>,
+    /// The material's normal map.
+    pub normal_map: Option<TextureUse>,
 }
 
 impl Attributes {
@@ -42,15 +42,14 @@ impl Attributes {
             }
             accessor
         });
-        let (normals, normal_set) =
-            (get(Semantic::Normals), material.texture(TextureSlot::Normal).map(|texture| texture.tex_coord));
+        let (normals, normal_map) = (get(Semantic::Normals), material.texture(TextureSlot::Normal));
         Some(Self {
             positions: get(Semantic::Positions)?,
             normals,
-            tangents: normals.and(normal_set).and_then(|_| get(Semantic::Tangents)),
+            tangents: normals.and(normal_map).and_then(|_| get(Semantic::Tangents)),
             tex_coords,
             colors: get(Semantic::Colors(0)),
-            normal_set,
+            normal_map,
         })
     }
 
@@ -77,13 +76,13 @@ impl Attributes {
     /// Bytes in memory for each vertex.
     pub fn vertex_bytes(&self) -> usize {
         let coords = self.tex_coords.iter().flatten().count() * size_of::<Vec2>();
-        let tangents = self.normal_set.map_or(0, |_| size_of::<Vec4>());
+        let tangents = self.normal_map.map_or(0, |_| size_of::<Vec4>());
         2 * size_of::<Vec3>() + coords + tangents + self.colors.map_or(0, |_| size_of_val(&WHITE))
     }
 
     /// Whether every triangle may be given vertices of its own.
     pub fn may_split(&self) -> bool {
-        self.normals.is_none() || self.normal_set.is_some()
+        self.normals.is_none() || self.normal_map.is_some()
     }
 
     pub fn read_tex_coords(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<[Vec<Vec2>; 2], Fault> {

@@ -9,7 +9,7 @@ use super::Fault;
 use super::accessor::{Accessors, Numbers};
 use super::attributes::Attributes;
 use crate::scene::notices::Notices;
-use crate::scene::{Material, Mesh, tangents};
+use crate::scene::{Material, Mesh, TextureUse, tangents};
 
 /// Primitives may share accessors, so that a few bytes could ask for a lot of memory: they get this many times the
 /// bytes of all buffers, several times what primitives that share nothing need, and a little for small files.
@@ -70,9 +70,9 @@ impl<'a> Reader<'a> {
                 unify(&mut mesh, notices);
             }
         }
-        if let Some(set) = attributes.normal_set {
+        if let Some(map) = attributes.normal_map {
             let own = attributes.read_tangents(&self.accessors, used)?;
-            orient(&mut mesh, set, own.as_deref(), notices);
+            orient(&mut mesh, map, own.as_deref(), notices);
         }
         Ok(Some(mesh))
     }
@@ -119,13 +119,13 @@ impl<'a> Reader<'a> {
 }
 
 /// Gives a mesh that is normal-mapped its tangents: the file's own, or others where these will not do.
-fn orient(mesh: &mut Mesh, set: usize, own: Option<&[Vec4]>, notices: &mut Notices) {
+fn orient(mesh: &mut Mesh, map: TextureUse, own: Option<&[Vec4]>, notices: &mut Notices) {
     match own {
         Some(own) if tangents::adopt(mesh, own) => return,
         Some(_) => notices.add("tangents of no length or along the normal are computed anew", || mesh.name.clone()),
         None => {}
     }
-    tangents::compute(mesh, set);
+    tangents::compute(mesh, map.tex_coord, map.uv_from_tex_coord);
 }
 
 /// What a primitive makes of its vertices.

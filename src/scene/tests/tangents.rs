@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Affine2, Vec2, Vec3, Vec4};
 
 use super::shapes::{grid, sphere};
 use crate::scene::{Mesh, tangents};
@@ -11,7 +11,7 @@ use crate::scene::{Mesh, tangents};
 fn mapped(mut mesh: Mesh, coords: impl Fn(Vec3) -> Vec2) -> Mesh {
     mesh.tex_coords[1] = mesh.positions.iter().map(|&position| coords(position)).collect();
     mesh.colors = (0..mesh.positions.len()).map(|at| [at as u16; 4]).collect();
-    tangents::compute(&mut mesh, 1);
+    tangents::compute(&mut mesh, 1, Affine2::IDENTITY);
     check(&mesh);
     mesh
 }
@@ -28,6 +28,20 @@ fn check(mesh: &Mesh) {
 
 fn square(n: u32) -> Mesh {
     grid(n, |_, _| true, |_, _| 0.0)
+}
+
+#[test]
+fn a_transform_turns_the_tangents_as_turned_coordinates_do() {
+    let transform = Affine2::from_scale_angle_translation(Vec2::new(-2.0, 1.0), 0.7, Vec2::new(0.3, 0.1));
+    let own = |at: Vec3| Vec2::new(at.x, 1.0 - at.y);
+    let mut transformed = square(3);
+    transformed.tex_coords[1] = transformed.positions.iter().map(|&at| own(at)).collect();
+    tangents::compute(&mut transformed, 1, transform);
+    let turned = mapped(square(3), |at| transform.transform_point2(own(at)));
+    for (found, expected) in transformed.tangents.iter().zip(&turned.tangents) {
+        assert!(found.abs_diff_eq(*expected, 1e-6), "{found} {expected}");
+        assert!(!found.abs_diff_eq(Vec4::new(1.0, 0.0, 0.0, 1.0), 0.1));
+    }
 }
 
 #[test]
@@ -66,7 +80,7 @@ fn coordinates_that_give_no_direction_give_any() {
         assert!(mesh.tangents.iter().all(|tangent| tangent.is_finite()));
     }
     let mut bare = square(3);
-    tangents::compute(&mut bare, 0);
+    tangents::compute(&mut bare, 0, Affine2::IDENTITY);
     assert_eq!(bare.tangents.len(), 16);
 }
 
@@ -75,7 +89,7 @@ fn a_sphere_has_its_parallels_for_tangents() {
     let mut mesh = sphere(40);
     mesh.tex_coords[1] = square(40).positions.iter().map(|at| Vec2::new(at.x, 1.0 - at.y)).collect();
     mesh.colors = vec![[0; 4]; mesh.positions.len()];
-    tangents::compute(&mut mesh, 1);
+    tangents::compute(&mut mesh, 1, Affine2::IDENTITY);
     check(&mesh);
     for (tangent, normal) in mesh.tangents.iter().zip(&mesh.normals).filter(|(_, normal)| normal.z.abs() < 0.9) {
         let east = Vec3::Z.cross(*normal).normalize();
