@@ -7,6 +7,8 @@ struct SurfacesFrame {
     eye: vec4f,
     // Weights, 0 or 1, of sheen, diffuse, specular, emission.
     lobes: vec4f,
+    // The camera's place. Interpolated positions are relative to it: drivers err by a share of what they interpolate.
+    origin: vec3f,
     ambient: vec3f,
     // What radiance is multiplied by before it is stored, so that the range of the targets' floats is the screen's.
     gain: f32,
@@ -42,7 +44,7 @@ override SURFACES_GREATEST: f32 = 65504.0;
 struct SurfacesVarying {
     @builtin(position) position: vec4f,
     // Centroid: at a silhouette the centre of a multisampled pixel may lie off the triangle.
-    @location(0) @interpolate(perspective, centroid) p_world: vec3f,
+    @location(0) @interpolate(perspective, centroid) p_from_origin: vec3f,
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
     @location(2) @interpolate(flat) emission: vec3f,
     @location(3) @interpolate(flat) material: u32,
@@ -53,7 +55,7 @@ struct SurfacesVarying {
 // The same with what textures and vertex colours need.
 struct SurfacesTexturedVarying {
     @builtin(position) position: vec4f,
-    @location(0) @interpolate(perspective, centroid) p_world: vec3f,
+    @location(0) @interpolate(perspective, centroid) p_from_origin: vec3f,
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
     @location(2) @interpolate(flat) emission: vec3f,
     @location(3) @interpolate(flat) material: u32,
@@ -69,7 +71,7 @@ fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying
     let n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
     let clip = surfaces_frame.clip_from_world * p_world;
     return SurfacesVarying(
-        clip, p_world.xyz, n_world, surfaces_instances[index].emission, surfaces_instances[index].material, n_world,
+        clip, p_world.xyz - surfaces_frame.origin, n_world, surfaces_instances[index].emission, surfaces_instances[index].material, n_world,
     );
 }
 
@@ -96,7 +98,7 @@ fn surfaces_vertex_textured(
     let t_world = surfaces_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
     let side = tangent.w * surfaces_instances[index].handedness;
     return SurfacesTexturedVarying(
-        bare.position, bare.p_world, bare.n_world, bare.emission, bare.material, bare.n_world,
+        bare.position, bare.p_from_origin, bare.n_world, bare.emission, bare.material, bare.n_world,
         vec4f(t_world, side), vec4f(tex_coord_0, tex_coord_1), color,
     );
 }
@@ -110,7 +112,7 @@ fn surfaces_normalize(v: vec3f) -> vec3f {
 @fragment
 fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let surface = material_plain(in.material, in.emission, in.n_world);
-    return surfaces_radiance(surface, in.p_world, in.n_world, in.n_center, front_facing);
+    return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing);
 }
 
 @fragment
@@ -119,7 +121,7 @@ fn surfaces_fragment_textured(
     @builtin(front_facing) front_facing: bool,
 ) -> @location(0) vec4f {
     let surface = material_textured(in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color);
-    return surfaces_radiance(surface, in.p_world, in.n_world, in.n_center, front_facing);
+    return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing);
 }
 
 // The radiance of a surface's point, and its opacity where that counts.

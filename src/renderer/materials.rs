@@ -92,7 +92,8 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         roughness: material.roughness,
         sheen_roughness: sheen.map_or(0.0, |sheen| sheen.roughness),
         alpha_exponent: look.map_or(1.0, |look| look.roughness_map.exponent()),
-        normal_scale: material.normal_scale,
+        // Past this the normal lies in the surface, and its square is none of a float's.
+        normal_scale: material.normal_scale.clamp(-1e6, 1e6),
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: if let AlphaMode::Mask { cutoff } = material.alpha_mode { cutoff } else { 0.0 },
         layering,

@@ -51,7 +51,8 @@ impl Offscreen {
         self.renderer.update(gpu, scene, settings)
     }
 
-    /// The picture as shown; made by `for_display`.
+    /// The picture as shown; made by `for_display`. Of the settings lobes, ambient and exposure count: the others were taken over when it was made
+    /// or updated.
     pub async fn display(
         &mut self,
         gpu: &Gpu,
@@ -66,7 +67,7 @@ impl Offscreen {
         Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
     }
 
-    /// Linear radiance; made by `for_linear`. With one sample a pixel, each pixel is the value at its centre.
+    /// Linear radiance; made by `for_linear`, of settings as `display` takes them. With one sample a pixel, each pixel is the value at its centre.
     pub async fn linear(
         &mut self,
         gpu: &Gpu,

@@ -35,6 +35,8 @@ struct Frame {
     clip_from_world: Mat4,
     eye: Vec4,
     lobes: Vec4,
+    origin: Vec3,
+    padding: u32,
     ambient: Vec3,
     gain: f32,
 }
@@ -109,6 +111,8 @@ impl SurfacesPass {
             clip_from_world: view.clip_from_world,
             eye: view.eye,
             lobes: [lobes.sheen, lobes.diffuse, lobes.specular, lobes.emission].map(weight).into(),
+            origin: view.origin,
+            padding: 0,
             ambient: settings.ambient,
             gain,
         };
@@ -280,7 +284,7 @@ mod tests {
 
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
-        let members = members!(Frame { clip_from_world, eye, lobes, ambient, gain });
+        let members = members!(Frame { clip_from_world, eye, lobes, origin, ambient, gain });
         assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
     }
 }

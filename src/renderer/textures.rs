@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView};
 
 use super::materials::transforms;
-use crate::scene::{Filter, Image, Material, Sampler, Scene, TextureSlot, Wrap};
+use crate::scene::{Filter, Image, Material, Sampler, Scene, TextureSlot, Wrap, linear_from_srgb};
 
 /// Most samples of a filter along the axis on which a texture is seen at a slant.
 const ANISOTROPY: u16 = 8;
@@ -200,11 +200,11 @@ impl Encoding {
     }
 
     /// What means are taken of.
-    fn decode(self, byte: usize) -> f32 {
+    fn decode(self, byte: u8) -> f32 {
         match self {
             Self::Colors => linear_from_srgb(byte),
-            Self::Numbers => byte as f32,
-            Self::Normals => byte as f32 / 127.5 - 1.0,
+            Self::Numbers => f32::from(byte),
+            Self::Normals => f32::from(byte) / 127.5 - 1.0,
         }
     }
 
@@ -248,7 +248,7 @@ impl Level {
     /// Half the size, rounded down: each texel is the mean over the area that it covers, of colours in linear light.
     fn next(&self, encoding: Encoding) -> Self {
         let [width, height] = self.size.map(|side| (side / 2).max(1));
-        let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte));
+        let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as u8));
         let columns: Vec<Span> = (0..width).map(|x| Span::new(x, width, self.size[0])).collect();
         let row = |y: u32| {
             let rows = Span::new(y, height, self.size[1]);
@@ -308,12 +308,6 @@ impl Span {
     }
 }
 
-/// Inverse of the sRGB transfer function, from bytes.
-fn linear_from_srgb(byte: usize) -> f32 {
-    let encoded = byte as f32 / 255.0;
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -321,7 +315,7 @@ mod tests {
     #[test]
     fn halves_are_means_over_the_area_in_linear_light() {
         let checker = |size: [u32; 2]| {
-            let texel = |at: u32| [if (at % size[0] + at / size[0]) % 2 == 0 { 255 } else { 0 }; 4];
+            let texel = |at: u32| [if (at % size[0] + at / size[0]).is_multiple_of(2) { 255 } else { 0 }; 4];
             Level { size, texels: (0..size[0] * size[1]).map(texel).collect() }
         };
         // Half the light is 188 in sRGB, 128 as a number; opacity is one.

@@ -1,6 +1,6 @@
 //! From a camera and a picture's size to what the vertex shader needs.
 
-use glam::{DMat4, DVec4, Mat4, Vec4};
+use glam::{DMat4, DVec4, Mat4, Vec3, Vec4};
 
 use crate::scene::{Camera, Projection};
 
@@ -40,6 +40,8 @@ pub struct View {
     pub clip_from_world: Mat4,
     /// The eye's place (w = 1), or the direction towards it (w = 0) of an orthographic view.
     pub eye: Vec4,
+    /// The camera's place.
+    pub origin: Vec3,
 }
 
 impl View {
@@ -53,7 +55,8 @@ impl View {
             Projection::Perspective { .. } => world_from_camera.w_axis,
             Projection::Orthographic { .. } => world_from_camera.z_axis,
         };
-        Self { clip_from_world: clip_from_world.as_mat4(), eye: eye.as_vec4() }
+        let origin = world_from_camera.w_axis.truncate().as_vec3();
+        Self { clip_from_world: clip_from_world.as_mat4(), eye: eye.as_vec4(), origin }
     }
 }
 
@@ -89,7 +92,7 @@ fn tile_from_clip([width, height]: [f64; 2], tile: Rect) -> DMat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec3, Vec4Swizzles};
+    use glam::Vec4Swizzles;
 
     fn camera(projection: Projection) -> Camera {
         let turned = Mat4::from_rotation_translation(glam::Quat::from_rotation_y(0.3), Vec3::new(1.0, 2.0, 3.0));

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::{Image, Mesh, Sampler, Scene, TextureSlot, Wrap};
+use super::{Image, Mesh, Sampler, Scene, TextureSlot, Wrap, linear_from_srgb};
 
 /// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
 const TEXELS: f64 = (1 << 20) as f64;
@@ -132,10 +132,4 @@ fn wrapped(at: i64, side: i64, wrap: Wrap) -> usize {
             at.min(2 * side - 1 - at)
         }
     }) as usize
-}
-
-/// The inverse of the sRGB transfer function (IEC 61966-2-1), of a code of 8 bits.
-fn linear_from_srgb(code: u8) -> f32 {
-    let encoded = f32::from(code) / 255.0;
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

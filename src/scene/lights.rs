@@ -26,10 +26,11 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         if radiance == Vec3::ZERO {
             continue;
         }
+        let name = if instance.name.is_empty() { &mesh.name } else { &instance.name };
         triangles += mesh.indices.len() / 3;
         if triangles > TRIANGLES_MAX {
             triangles -= mesh.indices.len() / 3;
-            notices.add("emitters past 8388608 triangles glow but light nothing", || instance.name.clone());
+            notices.add("emitters past 8388608 triangles glow but light nothing", || name.clone());
             continue;
         }
         let topology = topologies[instance.mesh].get_or_insert_with(|| Topology::new(mesh));
@@ -39,14 +40,14 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         };
         let own: usize = polygons.iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum();
         if corners + own > CORNERS_MAX {
-            notices.add("emitters past 8192 corners in all glow but light nothing", || instance.name.clone());
+            notices.add("emitters past 8192 corners in all glow but light nothing", || name.clone());
         } else if own > 0 {
             corners += own;
             if polygons.iter().any(|polygon| crosses(&polygon.contours, polygon.normal)) {
                 let kind = "emitters whose outline crosses itself light twice where they overlap";
-                notices.add(kind, || instance.name.clone());
+                notices.add(kind, || name.clone());
             }
-            let name = if instance.name.is_empty() { mesh.name.clone() } else { instance.name.clone() };
+            let name = name.clone();
             // Channels that do not glow have no mean: 1, so that they may be given one.
             let mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
             let texture_mean = Vec3::select(material.emission.cmpgt(Vec3::ZERO), mean, Vec3::ONE);

@@ -32,7 +32,7 @@ pub use light::{Light, Polygon, PunctualKind, PunctualLight};
 pub use material::{AlphaMode, Material, Sheen, TextureSlot};
 pub use mesh::{Instance, Mesh};
 pub use settings::{Layering, Lobes, Overrides, RoughnessMap, Settings, SheenLook, SheenModel};
-pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap};
+pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from_srgb};
 
 /// Everything that a picture is made of.
 ///

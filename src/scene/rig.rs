@@ -64,7 +64,7 @@ pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
         add_panel(scene, panel, world_from_mesh);
     }
     lights::add_lights(scene, first, notices);
-    notices.add("no light in the file", || "key, fill and rim lights are added".to_owned());
+    notices.add("nothing in the file lights the scene", || "key, fill and rim lights are added".to_owned());
 }
 
 /// Whether any of the face of a panel may be in the frame.

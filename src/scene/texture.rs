@@ -63,3 +63,9 @@ pub struct TextureUse {
     /// KHR_texture_transform.
     pub uv_from_tex_coord: Affine2,
 }
+
+/// Linear light of an sRGB-encoded byte, in [0, 1] (IEC 61966-2-1).
+pub fn linear_from_srgb(code: u8) -> f32 {
+    let encoded = f32::from(code) / 255.0;
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}

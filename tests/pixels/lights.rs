@@ -1,7 +1,7 @@
 //! Lights of all kinds: many, without extent, and those that are skipped.
 
 use glam::Vec3;
-use velour::scene::{Material, PunctualKind, PunctualLight, Settings};
+use velour::scene::{Material, Projection, PunctualKind, PunctualLight, Settings};
 use velour::table::LtcTable;
 
 use super::compare::{GPU, SIZE, differences, hold, linear, sheen_alone};
@@ -53,10 +53,10 @@ fn panels(count: usize) -> Vec<Thing> {
     let panel = |k: usize| {
         let angle = k as f32 * 2.4;
         let eye = [1.7 * angle.cos(), 0.9 - 1.5 * k as f32 / count as f32, 1.7 * angle.sin()];
-        let target = if k % 3 == 0 { eye.map(|at| 2.0 * at) } else { ORIGIN };
+        let target = if k.is_multiple_of(3) { eye.map(|at| 2.0 * at) } else { ORIGIN };
         let color = [1.0 + (k % 5) as f32, 1.0 + (k % 3) as f32, 2.0].map(|radiance| 8.0 * radiance / count as f32);
         let mut panel = Thing::rectangle([0.2, 0.1], glow(color)).placed(facing(eye, target));
-        panel.material.double_sided = k % 7 == 0;
+        panel.material.double_sided = k.is_multiple_of(7);
         panel
     };
     (0..count).map(panel).collect()
@@ -100,4 +100,22 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
     assert_ne!(before, after);
     let mut anew = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
     assert_eq!(after, picture(&mut anew, &scene));
+}
+
+#[test]
+fn lights_at_the_very_point_that_they_light_give_numbers() {
+    let mut stage = Stage::new(vec![floor()], looking([0.0, 3.0, 0.0], ORIGIN));
+    stage.things[0].material.roughness = 0.0;
+    stage.projection = Projection::Orthographic { ymag: 1.0, near: 0.1, far: 10.0 };
+    for (x, z) in (0..64).flat_map(|x| (0..64).map(move |z| (x, z))).filter(|(x, z)| x % 8 == 0 && z % 8 == 0) {
+        stage.punctual.push(PunctualLight {
+            name: String::new(),
+            kind: PunctualKind::Point { range: f32::INFINITY },
+            intensity: Vec3::splat(1e-4),
+            position: Vec3::new((x as f32 + 0.5) / 32.0 - 1.0, 0.0, (z as f32 + 0.5) / 32.0 - 1.0),
+            direction: Vec3::NEG_Y,
+        });
+    }
+    let picture = linear(&stage.scene(), &LtcTable::embedded(), &unseen(), [64, 64]);
+    assert!(picture.pixels.iter().flatten().all(|channel| channel.is_finite() && *channel >= 0.0));
 }

@@ -1,6 +1,6 @@
 //! From radiance to pictures that are looked at, and pictures of all shapes.
 
-use glam::{Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
 use velour::scene::{AlphaMode, Scene, Settings};
@@ -159,4 +159,26 @@ fn many_triangles_are_drawn_in_parts_without_a_trace() {
         // At the floors' edges: 0 on lavapipe, 67 on SwiftShader, which shifts the corners of small triangles.
         assert!(count <= 150, "{count} pixels differ, blended {blended}: more than those at edges");
     }
+}
+
+/// Positions are interpolated relative to the camera: drivers err by a share of what they interpolate, most where samples are several.
+#[test]
+fn a_kilometre_from_the_origin_a_scene_looks_as_at_it() {
+    let at = |offset: f32| {
+        let mut scene = stage().scene();
+        let place = Mat4::from_translation(Vec3::splat(offset));
+        let lights: Vec<usize> = scene.lights.iter().map(|light| light.instance).collect();
+        for index in 0..lights.len() {
+            scene.move_light(index, Vec3::splat(offset));
+        }
+        for (_, instance) in scene.instances.iter_mut().enumerate().filter(|(index, _)| !lights.contains(index)) {
+            instance.world_from_mesh = place * instance.world_from_mesh;
+        }
+        scene.cameras[0].world_from_camera = place * scene.cameras[0].world_from_camera;
+        shown(&scene, 4, &Settings::default(), ToneCurve::None, SIZE)
+    };
+    let (near, far) = (at(0.0), at(1024.0));
+    let differs = |(near, far): &(&[u8; 3], &[u8; 3])| (0..3).any(|channel| near[channel].abs_diff(far[channel]) > 10);
+    let count = near.pixels.iter().zip(&far.pixels).filter(differs).count();
+    assert!(count <= 20, "{count} pixels differ: more than some at edges");
 }

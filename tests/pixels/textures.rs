@@ -2,12 +2,14 @@
 
 use glam::{Affine2, Vec2, Vec3, Vec4};
 use velour::picture::LinearImage;
+use velour::renderer::Offscreen;
 use velour::scene::{
     AlphaMode, Image, Lobes, Material, Sampler, Scene, Settings, Sheen, Texture, TextureSlot, TextureUse,
+    linear_from_srgb,
 };
 use velour::table::LtcTable;
 
-use super::compare::{SIZE, linear};
+use super::compare::{GPU, SIZE, linear};
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
@@ -62,16 +64,10 @@ fn rich() -> Material {
     }
 }
 
-/// Linear light of an sRGB byte, by IEC 61966-2-1.
-fn linear_of(byte: u8) -> f32 {
-    let encoded = f32::from(byte) / 255.0;
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
 #[test]
 fn one_texel_is_a_factor_in_the_right_channel_and_encoding() {
     let texel = [180, 120, 60, 200];
-    let color = Vec3::new(linear_of(180), linear_of(120), linear_of(60));
+    let color = Vec3::new(linear_from_srgb(180), linear_from_srgb(120), linear_from_srgb(60));
     let plain_share = |channel: usize| f32::from(texel[channel]) / 255.0;
     let base = rich();
     let sheen = base.sheen.unwrap();
@@ -231,13 +227,60 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
             // The floor's own tangents are mirrored with it, and so is what the texture says.
             for scene in [&mut scene, &mut expected] {
                 let flip = glam::Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
-                scene.instances[0].world_from_mesh = scene.instances[0].world_from_mesh * flip;
+                scene.instances[0].world_from_mesh *= flip;
             }
         }
         expected.meshes[0].normals = vec![mapped.normalize(); 4];
         let (found, expected) = (picture(&scene), picture(&expected));
         assert!(difference(&found, &expected) < 1e-3, "mirrored {mirrored}: {}", difference(&found, &expected));
     }
+}
+
+/// Filtering widens what a mipmap has averaged, and nothing else.
+#[test]
+fn flat_normal_maps_leave_sharp_reflections_sharp() {
+    let settings = Settings { lights_visible: false, ..Settings::default() };
+    let filtered = |scene: &Scene| {
+        let mut renderer = Offscreen::for_linear(&GPU, 4, &LtcTable::embedded(), scene, &settings).unwrap();
+        GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap()
+    };
+    let polished = Material { roughness: 0.15, metallic: 1.0, sheen: None, ..rich() };
+    let bare = filtered(&floor(polished.clone()));
+    // A byte's rounding leans by half a step, which moves a reflection's edge.
+    for (texel, scale, most) in [([128, 128, 255, 255], 1.0, 0.2), ([156, 100, 248, 255], 0.0, 1e-2)] {
+        let mut scene = floor(polished.clone());
+        scene.materials[0].normal_scale = scale;
+        textured(&mut scene, TextureSlot::Normal, [4, 4], vec![texel; 16]);
+        let difference = difference(&filtered(&scene), &bare);
+        assert!(difference < most, "{texel:?} scaled by {scale}: {difference}");
+    }
+}
+
+#[test]
+fn tints_past_one_are_cut_after_their_texture() {
+    let glass = |tint: f32| Material { ior: 2.0, specular_color: Vec3::splat(tint), specular: 1.0, ..plain() };
+    let mut scene = floor(glass(36.0));
+    textured(&mut scene, TextureSlot::SpecularColor, [1, 1], vec![[188, 188, 188, 255]]);
+    let expected = picture(&floor(glass(36.0 * linear_from_srgb(188))));
+    assert!(difference(&picture(&scene), &expected) < 1e-4);
+    assert!(difference(&picture(&floor(glass(9.0))), &picture(&floor(glass(4.0)))) > 1e-2);
+}
+
+#[test]
+fn textures_without_mipmaps_are_made_smaller_as_they_say() {
+    use velour::scene::Filter::{Linear, Nearest};
+    let checker = (0..256 * 256).map(|at| if (at % 256 + at / 256) % 2 == 0 { [255; 4] } else { [0; 4] });
+    let texels: Vec<[u8; 4]> = checker.collect();
+    let greys = |magnify, minify| {
+        let mut scene = floor(Material { base_color: Vec3::ZERO, emission: Vec3::ONE, ..plain() });
+        textured(&mut scene, TextureSlot::Emission, [256, 256], texels.clone());
+        scene.textures[0].sampler = Sampler { magnify, minify, mipmaps: None, ..Sampler::DEFAULT };
+        let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
+        let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+        picture.pixels.iter().filter(|pixel| (0.02..0.98).contains(&pixel[0])).count()
+    };
+    assert_eq!(greys(Linear, Nearest), 0);
+    assert!(greys(Nearest, Linear) > 500);
 }
 
 #[test]

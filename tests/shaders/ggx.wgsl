@@ -26,14 +26,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let side = ltc_side(vec3(0.0, 0.0, -1.0), corner, false);
     var outline = ltc_begin(corner * vec3(-1.0, 1.0, 1.0));
     var sum = 0.0;
+    var turn = LTC_LEVEL;
     outline = ltc_next(outline, corner);
     sum += ltc_edge(outline, lobe.m_inv);
+    turn = ltc_turn(turn, outline, lobe.m_inv);
     outline = ltc_next(outline, corner * vec3(1.0, -1.0, 1.0));
     sum += ltc_edge(outline, lobe.m_inv);
+    turn = ltc_turn(turn, outline, lobe.m_inv);
     outline = ltc_next(outline, corner * vec3(-1.0, -1.0, 1.0));
     sum += ltc_edge(outline, lobe.m_inv);
+    turn = ltc_turn(turn, outline, lobe.m_inv);
     outline = ltc_next(outline, corner * vec3(-1.0, 1.0, 1.0));
     sum += ltc_edge(outline, lobe.m_inv);
-    let form_factor = ltc_form_factor(sum, side);
+    turn = ltc_turn(turn, outline, lobe.m_inv);
+    let form_factor = ltc_form_factor(sum, turn, lobe.m_inv, side);
     results[id.x] = Result(lobe.m_inv, lobe.albedo, lobe.fresnel, ggx_base_weight(shares), form_factor, shares);
 }

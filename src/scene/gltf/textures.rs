@@ -32,8 +32,12 @@ pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Not
     let used: BTreeSet<usize> = slots.flatten().map(|used| used.texture).collect();
     // The scene's index of each texture that is used, and of each image.
     let (mut textures, mut images, mut known) = (HashMap::new(), Numbered::new(), Numbered::new());
+    let mut same = HashMap::new();
     for index in used {
         if let Some(image) = image(root, index, notices)? {
+            // Images of the same bytes are one.
+            let bytes = (root.images[image].uri.as_deref(), root.images[image].buffer_view.map(|view| view.value()));
+            let image = *same.entry(bytes).or_insert(image);
             let sampler = root.textures[index].sampler.map_or(Sampler::DEFAULT, |sampler| samplers[sampler.value()]);
             textures.insert(index, known.number(Texture { image: images.number(image), sampler }));
         }

@@ -59,7 +59,7 @@ fn lights_of_no_intensity_are_dropped() {
         for light in [json!({ "type": kind, "intensity": 0 }), json!({ "type": kind, "color": [0, 0, 0] })] {
             let scene = with_light(extension, light, json!({})).read();
             assert!(scene.punctual_lights.is_empty());
-            assert_eq!(scene.notices, ["no light in the file: key, fill and rim lights are added"]);
+            assert_eq!(scene.notices, ["nothing in the file lights the scene: key, fill and rim lights are added"]);
         }
     }
 }
