@@ -86,11 +86,12 @@ fn quiet_device_selection() {
     }
 }
 
-/// A line on stdout. Whoever closed the other end has read enough; other failures are complained of.
+/// A line on stdout. Whoever closed the other end has read enough; another failure ends the program, which says so once.
 fn say(line: impl Display) {
     match writeln!(io::stdout(), "{line}") {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(format!("stdout cannot be written: {error}"))
+            complain(format!("stdout cannot be written ({error}): give it another place"));
+            std::process::exit(2);
         }
         _ => {}
     }

@@ -146,7 +146,7 @@ fn surfaces_radiance(
     }
     let opacity = select(1.0, surface.opacity, SURFACES_BLEND);
     if SURFACES_UNLIT {
-        return surfaces_stored(surface.base_color, opacity);
+        return surfaces_stored(surfaces_frame.lobes.w * surface.base_color, opacity);
     }
     let sheen = sheen_lobe(surfaces_sheen_table, surface.sheen_alpha, mu);
     let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);

@@ -27,7 +27,7 @@ pub struct Material {
     pub sheen: Option<Sheen>,
     /// Emitted radiance (glTF's emissiveFactor times its emissive strength), linear Rec. 709, >= 0.
     pub emission: Vec3,
-    /// KHR_materials_unlit: the base colour is shown as it is, whatever lights it.
+    /// KHR_materials_unlit: the base colour is shown as it is, whatever lights it; it counts as emission.
     pub unlit: bool,
     /// Back faces are drawn and lit with the normal turned; otherwise they are culled.
     pub double_sided: bool,
