@@ -1,5 +1,6 @@
 //! Textures on the device: mipmaps, samplers, and a bind group for each material that has any.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use glam::Vec3;
@@ -143,9 +144,9 @@ fn make_sampler(device: &Device, sampler: &Sampler) -> wgpu::Sampler {
 /// The image with all its mipmaps; those larger than the device takes are left out.
 fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> TextureView {
     let limit = device.limits().max_texture_dimension_2d;
-    let mut base = Level { size: [image.width, image.height], texels: image.texels.clone() };
+    let mut base = Level { size: [image.width, image.height], texels: Cow::Borrowed(&image.texels) };
     if encoding == Encoding::Normals {
-        base.texels.iter_mut().for_each(|texel| texel[3] = 255);
+        base.texels.to_mut().iter_mut().for_each(|texel| texel[3] = 255);
     }
     while base.size.iter().any(|side| *side > limit) {
         base = base.next(encoding);
@@ -170,6 +171,8 @@ fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> 
         queue.write_texture(target, level.texels.as_flattened(), layout, extent(level.size));
         level = level.next(encoding);
     }
+    // What was staged is let go texture by texture.
+    queue.submit([]);
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
@@ -239,14 +242,14 @@ fn normal_of_length([x, y, z, _]: [f32; 4], length: f32) -> [f32; 4] {
 }
 
 /// A texture at one of its sizes.
-struct Level {
+struct Level<'a> {
     size: [u32; 2],
-    texels: Vec<[u8; 4]>,
+    texels: Cow<'a, [[u8; 4]]>,
 }
 
-impl Level {
+impl Level<'_> {
     /// Half the size, rounded down: each texel is the mean over the area that it covers, of colours in linear light.
-    fn next(&self, encoding: Encoding) -> Self {
+    fn next(&self, encoding: Encoding) -> Level<'static> {
         let [width, height] = self.size.map(|side| (side / 2).max(1));
         let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as u8));
         let columns: Vec<Span> = (0..width).map(|x| Span::new(x, width, self.size[0])).collect();
@@ -261,7 +264,7 @@ impl Level {
             .into_par_iter()
             .flat_map_iter(|y| row(y).map(|mean| encoding.encode(mean)).collect::<Vec<_>>())
             .collect();
-        Self { size: [width, height], texels }
+        Level { size: [width, height], texels: Cow::Owned(texels) }
     }
 
     /// The mean over some rows and columns; opacity is never encoded.
@@ -321,11 +324,11 @@ mod tests {
         // Half the light is 188 in sRGB, 128 as a number; opacity is one.
         assert_eq!(checker([8, 4]).next(Encoding::Colors).texels, vec![[188, 188, 188, 128]; 8]);
         assert_eq!(checker([8, 4]).next(Encoding::Numbers).texels, vec![[128; 4]; 8]);
-        let odd = Level { size: [3, 1], texels: vec![[30; 4], [60; 4], [90; 4]] }.next(Encoding::Numbers);
-        assert_eq!((odd.size, odd.texels), ([1, 1], vec![[60; 4]]));
-        let five =
-            Level { size: [5, 1], texels: vec![[0; 4], [0; 4], [100; 4], [0; 4], [0; 4]] }.next(Encoding::Numbers);
-        assert_eq!((five.size, five.texels), ([2, 1], vec![[20; 4]; 2]));
+        let odd = Level { size: [3, 1], texels: vec![[30; 4], [60; 4], [90; 4]].into() }.next(Encoding::Numbers);
+        assert_eq!((odd.size, odd.texels.to_vec()), ([1, 1], vec![[60; 4]]));
+        let five = Level { size: [5, 1], texels: vec![[0; 4], [0; 4], [100; 4], [0; 4], [0; 4]].into() }
+            .next(Encoding::Numbers);
+        assert_eq!((five.size, five.texels.to_vec()), ([2, 1], vec![[20; 4]; 2]));
     }
 
     #[test]
@@ -334,7 +337,7 @@ mod tests {
         let mean = |level: &Level| {
             level.texels.iter().map(|texel| f64::from(texel[0])).sum::<f64>() / level.texels.len() as f64
         };
-        let mut level = Level { size: [37, 21], texels };
+        let mut level = Level { size: [37, 21], texels: texels.into() };
         let whole = mean(&level);
         while level.size != [1, 1] {
             level = level.next(Encoding::Numbers);
@@ -352,10 +355,10 @@ mod tests {
             let [r, g, b, a] = level.texels[0];
             (Vec3::new(f32::from(r), f32::from(g), f32::from(b)) / 127.5 - 1.0, length_from(a))
         };
-        let flat = Level { size: [2, 2], texels: vec![lean(0.4); 4] }.next(Encoding::Normals);
+        let flat = Level { size: [2, 2], texels: vec![lean(0.4); 4].into() }.next(Encoding::Normals);
         assert!(mean(&flat).1 > 0.9999, "nothing was averaged");
         let texels = vec![lean(1.0), lean(-1.0), lean(-1.0), lean(1.0), lean(1.0), lean(-1.0), lean(-1.0), lean(1.0)];
-        let bumpy = Level { size: [4, 2], texels }.next(Encoding::Normals);
+        let bumpy = Level { size: [4, 2], texels: texels.into() }.next(Encoding::Normals);
         for level in [&bumpy, &bumpy.next(Encoding::Normals)] {
             let (normal, length) = mean(level);
             assert!(normal.distance(Vec3::Z) < 0.01 && (length - 0.5_f32.sqrt()).abs() < 0.005, "{normal} {length}");
