@@ -39,10 +39,10 @@ fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) ->
     let outline = ltc_next(walk.outline, vertex);
     var next = PolygonsWalk(outline, walk.sums, walk.turns, walk.vector, vertex, walk.first, true);
     next.sums.x += ltc_edge(outline, POLYGONS_IDENTITY);
-    var turns = vec4f(ltc_turn(walk.turns.xy, outline, POLYGONS_IDENTITY), walk.turns.zw);
+    next.turns = vec4f(ltc_turn(walk.turns.xy, outline, POLYGONS_IDENTITY), walk.turns.zw);
     if SURFACES_SPECULAR {
         next.sums.y += ltc_edge(outline, receiver.ggx);
-        turns = vec4f(turns.xy, ltc_turn(walk.turns.zw, outline, receiver.ggx));
+        next.turns = vec4f(next.turns.xy, ltc_turn(walk.turns.zw, outline, receiver.ggx));
     }
     if SURFACES_SHEEN {
         next.sums.z += ltc_edge(outline, receiver.sheen);
@@ -50,7 +50,6 @@ fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) ->
     if SURFACES_RECIPROCAL {
         next.vector += ltc_edge_vector(outline);
     }
-    next.turns = turns;
     return next;
 }
 

@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::lights::LightKinds;
 use super::materials::Look;
-use crate::scene::{Bounds, Instance, Light, Scene, Settings};
+use crate::scene::{Bounds, Instance, Light, Mesh, Scene, Settings};
 
 /// `SurfacesInstance` of `surfaces.wgsl`.
 #[repr(C)]
@@ -44,9 +44,7 @@ pub(super) struct Attributes {
 }
 
 impl Variant {
-    fn new(scene: &Scene, settings: &Settings, lights: LightKinds, instance: &Instance) -> Self {
-        let mesh = &scene.meshes[instance.mesh];
-        let look = Look::new(mesh.material, &scene.materials[mesh.material], settings);
+    fn new(look: Look, mesh: &Mesh, lights: LightKinds, mirrored: bool) -> Self {
         let attributes = match look.textures != 0 || !mesh.colors.is_empty() {
             false => Attributes::default(),
             true => Attributes {
@@ -56,7 +54,7 @@ impl Variant {
                 colors: !mesh.colors.is_empty(),
             },
         };
-        Self { look, attributes, lights, mirrored: instance.mirrors() }
+        Self { look, attributes, lights, mirrored }
     }
 }
 
@@ -79,14 +77,18 @@ pub(super) struct Draws {
 }
 
 impl Draws {
-    /// `mesh_bounds` are those of the scene's meshes.
-    pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
+    /// `mesh_bounds` are those of the scene's meshes, `kinds` what its lights are.
+    pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
         let mut lights = vec![None; scene.instances.len()];
         scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        let kinds = LightKinds::of(scene);
         let is_hidden = |index: usize| lights[index].is_some() && !settings.lights_visible;
-        let variants: Vec<Variant> =
-            scene.instances.iter().map(|instance| Variant::new(scene, settings, kinds, instance)).collect();
+        let looks = scene.materials.iter().enumerate().map(|(index, material)| Look::new(index, material, settings));
+        let looks: Vec<Look> = looks.collect();
+        let variant = |instance: &Instance| {
+            let mesh = &scene.meshes[instance.mesh];
+            Variant::new(looks[mesh.material], mesh, kinds, instance.mirrors())
+        };
+        let variants: Vec<Variant> = scene.instances.iter().map(variant).collect();
         let key = |&index: &usize| {
             (is_hidden(index), variants[index].look.blend, variants[index], scene.instances[index].mesh)
         };
@@ -97,7 +99,7 @@ impl Draws {
         for index in order {
             let instance = &scene.instances[index];
             let at = draws.instances.len() as u32;
-            draws.instances.push(gpu_instance(scene, instance, lights[index]));
+            draws.instances.push(gpu_instance(scene, instance, lights[index], variants[index].mirrored));
             draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));
             if is_hidden(index) {
                 continue;
@@ -144,7 +146,7 @@ impl Draws {
     }
 }
 
-fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>) -> GpuInstance {
+fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>, mirrored: bool) -> GpuInstance {
     let material_index = scene.meshes[instance.mesh].material;
     let material = &scene.materials[material_index];
     GpuInstance {
@@ -152,7 +154,7 @@ fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>) -> Gp
         normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
         emission: light.map_or(material.emission, Light::emission),
         material: material_index as u32,
-        handedness: if instance.mirrors() { -1.0 } else { 1.0 },
+        handedness: if mirrored { -1.0 } else { 1.0 },
         padding: [0; 3],
     }
 }

@@ -52,15 +52,9 @@ pub(super) struct LightKinds {
     pub punctual: bool,
 }
 
-impl LightKinds {
-    pub fn of(scene: &Scene) -> Self {
-        let lit = || scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO);
-        let mut polygons = lit().flat_map(|light| &light.polygons);
-        Self {
-            quads: polygons.clone().any(is_quad),
-            polygons: polygons.any(|polygon| !is_quad(polygon)),
-            punctual: !scene.punctual_lights.is_empty(),
-        }
+impl GpuCounts {
+    pub fn kinds(self) -> LightKinds {
+        LightKinds { quads: self.quads > 0, polygons: self.polygons > self.quads, punctual: self.punctual > 0 }
     }
 }
 

@@ -2,14 +2,13 @@
 
 use std::collections::HashMap;
 
-use bytemuck::NoUninit;
 use glam::{Vec2, Vec4};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 
 use super::draws::{Batch, Draws};
-use super::lights::{GpuCounts, GpuLights};
-use super::materials::factors;
+use super::lights::GpuLights;
+use super::materials::{GpuMaterial, factors};
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Mesh, Scene, Settings};
 
@@ -48,21 +47,22 @@ impl Resident {
         let mesh_bounds: Vec<Bounds> = scene.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
         let contents = Contents::new(scene, settings, &mesh_bounds);
         let limit = device.limits().max_storage_buffer_binding_size;
-        let storage = |label: &'static str, bytes: &[u8]| {
+        let storage = |(label, bytes): (&'static str, &[u8])| {
             buffer(device, label, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST, limit)
         };
         let material_layout = textures::bind_group_layout(device);
         let material_groups = textures::bind_groups((device, queue), &material_layout, scene);
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let constants = [Vec4::ZERO, Vec4::ONE];
+        let [instances, materials, polygons, light_vertices, punctual] = contents.stored();
         Ok(Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
-            instances: storage("the instances", bytemuck::cast_slice(&contents.draws.instances))?,
-            materials: storage("the materials", &contents.materials)?,
-            counts: buffer(device, "lights", bytemuck::bytes_of(&contents.counts), uniform, limit)?,
-            polygons: storage("the lights", &contents.polygons)?,
-            light_vertices: storage("the lights' outlines", &contents.light_vertices)?,
-            punctual: storage("the lights without extent", &contents.punctual)?,
+            instances: storage(instances)?,
+            materials: storage(materials)?,
+            counts: buffer(device, "lights", bytemuck::bytes_of(&contents.lights.counts), uniform, limit)?,
+            polygons: storage(polygons)?,
+            light_vertices: storage(light_vertices)?,
+            punctual: storage(punctual)?,
             constants: buffer(device, "constants", bytemuck::cast_slice(&constants), BufferUsages::VERTEX, limit)?,
             material_layout,
             material_groups,
@@ -76,15 +76,16 @@ impl Resident {
     pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<bool, RenderError> {
         let contents = Contents::new(scene, settings, &self.mesh_bounds);
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        gpu.queue.write_buffer(&self.counts, 0, bytemuck::bytes_of(&contents.counts));
+        gpu.queue.write_buffer(&self.counts, 0, bytemuck::bytes_of(&contents.lights.counts));
         let mut grown = false;
-        for (label, buffer_of, bytes) in [
-            ("the instances", &mut self.instances, bytemuck::cast_slice(&contents.draws.instances)),
-            ("the materials", &mut self.materials, &contents.materials),
-            ("the lights", &mut self.polygons, &contents.polygons),
-            ("the lights' outlines", &mut self.light_vertices, &contents.light_vertices),
-            ("the lights without extent", &mut self.punctual, &contents.punctual),
-        ] {
+        let buffers = [
+            &mut self.instances,
+            &mut self.materials,
+            &mut self.polygons,
+            &mut self.light_vertices,
+            &mut self.punctual,
+        ];
+        for (buffer_of, (label, bytes)) in buffers.into_iter().zip(contents.stored()) {
             if bytes.len() as u64 <= buffer_of.size() {
                 gpu.queue.write_buffer(buffer_of, 0, bytes);
             } else {
@@ -107,31 +108,31 @@ impl Resident {
 /// What the buffers hold.
 struct Contents {
     draws: Draws,
-    materials: Vec<u8>,
-    counts: GpuCounts,
-    polygons: Vec<u8>,
-    light_vertices: Vec<u8>,
-    punctual: Vec<u8>,
+    materials: Vec<GpuMaterial>,
+    lights: GpuLights,
 }
 
 impl Contents {
     fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
         let lights = GpuLights::new(scene);
-        let materials: Vec<_> =
-            scene.materials.iter().enumerate().map(|(index, material)| factors(index, material, settings)).collect();
+        let materials = scene.materials.iter().enumerate();
         Self {
-            draws: Draws::new(scene, settings, mesh_bounds),
-            materials: bytes(&materials),
-            counts: lights.counts,
-            polygons: bytes(&lights.polygons),
-            light_vertices: bytes(&lights.vertices),
-            punctual: bytes(&lights.punctual),
+            draws: Draws::new(scene, settings, mesh_bounds, lights.counts.kinds()),
+            materials: materials.map(|(index, material)| factors(index, material, settings)).collect(),
+            lights,
         }
     }
-}
 
-fn bytes<T: NoUninit>(values: &[T]) -> Vec<u8> {
-    bytemuck::cast_slice(values).to_vec()
+    /// What goes into storage, with its name: instances, materials, polygons, their vertices, lights without extent.
+    fn stored(&self) -> [(&'static str, &[u8]); 5] {
+        [
+            ("the instances", bytemuck::cast_slice(&self.draws.instances)),
+            ("the materials", bytemuck::cast_slice(&self.materials)),
+            ("the lights", bytemuck::cast_slice(&self.lights.polygons)),
+            ("the lights' outlines", bytemuck::cast_slice(&self.lights.vertices)),
+            ("the lights without extent", bytemuck::cast_slice(&self.lights.punctual)),
+        ]
+    }
 }
 
 fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
