@@ -19,7 +19,13 @@ struct Shaded {
 }
 
 fn shaded(texels: &[[f32; 4]], width: usize, points: &[[f32; 4]]) -> Vec<Shaded> {
-    let source = [files::source("ltc.wgsl"), files::source("ggx.wgsl"), include_str!("ggx.wgsl").to_owned()].concat();
+    let source = [
+        files::source("ltc.wgsl"),
+        files::source("ggx.wgsl"),
+        include_str!("ceiling.wgsl").to_owned(),
+        include_str!("ggx.wgsl").to_owned(),
+    ]
+    .concat();
     let texture = device::texture(width as u32, texels);
     device::run(&source, &[bytemuck::cast_slice(points)], Some(&texture), points.len())
 }

@@ -21,24 +21,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = points[id.x];
     let lobe = ggx_lobe(table, point.x, point.y);
     let shares = ggx_albedo(lobe, point.z * vec3(1.0, 0.5, 0.0), point.w * vec3(1.0, 1.0, 0.25));
-    // A ceiling, 100 kilometres to each side at a metre's height.
-    let corner = vec3(1e5, 1e5, 1.0);
-    let side = ltc_side(vec3(0.0, 0.0, -1.0), corner, false);
-    var outline = ltc_begin(corner * vec3(-1.0, 1.0, 1.0));
-    var sum = 0.0;
-    var turn = LTC_LEVEL;
-    outline = ltc_next(outline, corner);
-    sum += ltc_edge(outline, lobe.m_inv);
-    turn = ltc_turn(turn, outline, lobe.m_inv);
-    outline = ltc_next(outline, corner * vec3(1.0, -1.0, 1.0));
-    sum += ltc_edge(outline, lobe.m_inv);
-    turn = ltc_turn(turn, outline, lobe.m_inv);
-    outline = ltc_next(outline, corner * vec3(-1.0, -1.0, 1.0));
-    sum += ltc_edge(outline, lobe.m_inv);
-    turn = ltc_turn(turn, outline, lobe.m_inv);
-    outline = ltc_next(outline, corner * vec3(-1.0, 1.0, 1.0));
-    sum += ltc_edge(outline, lobe.m_inv);
-    turn = ltc_turn(turn, outline, lobe.m_inv);
-    let form_factor = ltc_form_factor(sum, turn, lobe.m_inv, side);
+    let form_factor = ceiling(lobe.m_inv);
     results[id.x] = Result(lobe.m_inv, lobe.albedo, lobe.fresnel, ggx_base_weight(shares), form_factor, shares);
 }

@@ -16,8 +16,13 @@ struct Shaded {
 }
 
 fn shaded(table: &LtcTable, points: &[[f32; 2]]) -> Vec<Shaded> {
-    let source =
-        [files::source("ltc.wgsl"), files::source("sheen.wgsl"), include_str!("sheen.wgsl").to_owned()].concat();
+    let source = [
+        files::source("ltc.wgsl"),
+        files::source("sheen.wgsl"),
+        include_str!("ceiling.wgsl").to_owned(),
+        include_str!("sheen.wgsl").to_owned(),
+    ]
+    .concat();
     let texture = device::texture(table.size()[0] as u32, &table.texels());
     device::run(&source, &[bytemuck::cast_slice(points)], Some(&texture), points.len())
 }
