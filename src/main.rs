@@ -9,12 +9,14 @@ mod draw;
 mod figures;
 #[path = "main/fit.rs"]
 mod fit;
+#[path = "main/inputs.rs"]
+mod inputs;
 #[path = "main/output.rs"]
 mod output;
-#[cfg(feature = "gpu")]
 #[path = "main/overrides.rs"]
 mod overrides;
-#[cfg(feature = "gpu")]
+#[path = "main/reference.rs"]
+mod reference;
 #[path = "main/render_args.rs"]
 mod render_args;
 
@@ -64,6 +66,7 @@ fn main() -> ExitCode {
         Some(Command::View(view)) => draw::view(&view),
         #[cfg(feature = "gpu")]
         Some(Command::Render(render)) => draw::render(&render),
+        Some(Command::Reference(arguments)) => reference::reference(&arguments),
         #[cfg(feature = "gpu")]
         Some(Command::Info) => draw::info(),
         Some(Command::Fit(fit)) => fit::fit(&fit),

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use velour::fit::RESOLUTIONS;
 
+use crate::render_args::Reference;
 #[cfg(feature = "gpu")]
 use crate::render_args::Render;
 
@@ -30,6 +31,8 @@ pub enum Command {
     /// Renders a scene to a picture
     #[cfg(feature = "gpu")]
     Render(Render),
+    /// Renders a scene by path tracing on the processor: what the real-time picture is held against
+    Reference(Reference),
     /// Makes the tables from nothing and prints their errors
     Fit(Fit),
     /// Draws the table, its lobes and its errors, as .svg

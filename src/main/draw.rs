@@ -1,80 +1,62 @@
 //! What each command does, step by step. What can fail comes before anything is written or said.
 
+#[cfg(feature = "viewer")]
 use std::path::Path;
-use std::time::Instant;
 
 use serde_json::json;
-use velour::picture::{Format, check_writable, write_atomically};
-use velour::renderer::device::{self, Gpu};
+use velour::picture::{Format, write_atomically};
+use velour::renderer::device::{self, DeviceError, Gpu};
 use velour::renderer::{Offscreen, RenderError};
-use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
+use velour::scene::Scene;
 use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
 
-use crate::render_args::{Render, Switch};
-use crate::{Failure, complain, overrides, say};
+use crate::inputs::{Inputs, Timing};
+use crate::render_args::Render;
+use crate::{Failure, reference, say};
+#[cfg(feature = "viewer")]
+use {
+    crate::complain,
+    velour::picture::check_writable,
+    velour::scene::{Settings, gltf},
+};
 
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
 #[cfg(feature = "viewer")]
 const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../assets/drape.glb"));
 
-/// Seconds spent in the parts of a run, in order.
-#[derive(Default)]
-struct Timing(Vec<(&'static str, f64)>);
-
-impl Timing {
-    fn measure<T>(&mut self, part: &'static str, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
-        let done = work();
-        self.0.push((part, start.elapsed().as_secs_f64()));
-        done
-    }
-
-    fn total(&self) -> f64 {
-        self.0.iter().map(|(_, seconds)| seconds).sum()
-    }
-}
-
 pub fn render(arguments: &Render) -> Result<(), Failure> {
-    let format = Format::of(&arguments.output).map_err(Failure::input)?;
-    check_writable(&arguments.output).map_err(Failure::input)?;
     let mut timing = Timing::default();
-    let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
-        let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
-        Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
-    })?;
-    let camera = camera(&scene, arguments.camera.as_deref())?;
-    let settings = settings(arguments, &scene)?;
-    let gpu = timing.measure("device", || open(arguments.adapter.as_deref()))?;
-    let bytes = draw(&gpu, arguments, format, (&scene, camera, &table, &settings), &mut timing)?;
-    timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
-    scene.notices.iter().for_each(complain);
-    report(arguments, &scene, &gpu, &timing);
+    let inputs = Inputs::load(&arguments.picture, &mut timing)?;
+    inputs.check_real_time()?;
+    let gpu = match timing.measure("device", || pollster::block_on(device::open_offscreen(arguments.adapter.as_deref()))) {
+        Err(DeviceError::NoAdapter) if arguments.adapter.is_none() => {
+            return reference::in_place_of_a_device(arguments, &inputs, timing);
+        }
+        gpu => gpu.map_err(Failure::device)?,
+    };
+    let bytes = draw(&gpu, arguments, &inputs, &mut timing)?;
+    timing.measure("write", || write_atomically(&arguments.picture.output, &bytes)).map_err(Failure::input)?;
+    inputs.warn();
+    report(arguments, &inputs.scene, &gpu, &timing);
     Ok(())
 }
 
 /// The picture's file, in memory.
-fn draw(
-    gpu: &Gpu,
-    arguments: &Render,
-    format: Format,
-    (scene, camera, table, settings): (&Scene, &Camera, &LtcTable, &Settings),
-    timing: &mut Timing,
-) -> Result<Vec<u8>, Failure> {
-    let samples = arguments.msaa;
+fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> Result<Vec<u8>, Failure> {
+    let Inputs { format, scene, table, settings, .. } = inputs;
+    let (camera, samples, size) = (inputs.camera(), arguments.msaa, arguments.picture.size);
     let encoded = match format {
         Format::Png => {
             let renderer = timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, settings));
             let mut renderer = renderer.map_err(render_failure)?;
-            let tone = arguments.tonemap.into();
-            let picture =
-                timing.measure("frame", || gpu.block_on(renderer.display(gpu, camera, arguments.size, settings, tone)));
+            let tone = arguments.picture.tonemap.into();
+            let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, camera, size, settings, tone)));
             timing.measure("encode", || Ok(picture?.to_png()))
         }
         Format::Exr => {
             let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, settings));
             let mut renderer = renderer.map_err(render_failure)?;
-            let picture =
-                timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, arguments.size, settings)));
+            let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, size, settings)));
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };
@@ -89,47 +71,11 @@ fn render_failure(error: RenderError) -> Failure {
     }
 }
 
-fn settings(arguments: &Render, scene: &Scene) -> Result<Settings, Failure> {
-    Ok(Settings {
-        lobes: arguments.lobes,
-        lights_visible: arguments.lights_visible == Switch::On,
-        exposure: arguments.exposure,
-        ambient: arguments.ambient,
-        overrides: Overrides {
-            alpha: arguments.alpha,
-            sheen_color: arguments.sheen_color,
-            roughness_map: arguments.roughness_map,
-            sheen_model: arguments.sheen_model,
-            layering: arguments.layering,
-        },
-        material_overrides: overrides::resolve(&arguments.set, &scene.materials).map_err(Failure::input)?,
-    })
-}
-
-fn sheen_table(path: Option<&Path>) -> Result<LtcTable, Failure> {
-    path.map_or_else(|| Ok(LtcTable::embedded()), |path| LtcTable::load(path).map_err(Failure::input))
-}
-
-fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Failure> {
-    let Some(wanted) = wanted else {
-        return scene.cameras.first().ok_or_else(|| Failure::input("the scene has no camera"));
-    };
-    scene.camera(wanted).ok_or_else(|| {
-        let names: Vec<String> =
-            scene.cameras.iter().enumerate().map(|(index, camera)| format!("{index} ({})", camera.name)).collect();
-        Failure::input(format!("--camera {wanted}: the scene has no such camera; it has {}", names.join(", ")))
-    })
-}
-
-fn open(adapter: Option<&str>) -> Result<Gpu, Failure> {
-    pollster::block_on(device::open_offscreen(adapter)).map_err(Failure::device)
-}
-
 fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
     let adapter = gpu.adapter.get_info();
-    let [width, height] = arguments.size;
-    let output = arguments.output.display();
-    if !arguments.json {
+    let [width, height] = arguments.picture.size;
+    let output = arguments.picture.output.display();
+    if !arguments.picture.json {
         say(format!("{output}: {width}x{height} on {} in {:.2} s", adapter.name, timing.total()));
         return;
     }
@@ -138,7 +84,7 @@ fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
         timing.0.iter().map(|(part, seconds)| (part.to_string(), json!(seconds))).collect();
     let figures = json!({
         "output": output.to_string(),
-        "size": arguments.size,
+        "size": arguments.picture.size,
         "msaa": arguments.msaa,
         "adapter": adapter.name,
         "backend": format!("{:?}", adapter.backend).to_lowercase(),
@@ -184,15 +130,22 @@ pub fn view_or_render_default() -> Result<(), Failure> {
 /// What `velour render` makes of the scene when no flag is given.
 #[cfg(feature = "viewer")]
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
+    const SIZE: [u32; 2] = [1280, 720];
     check_writable(output).map_err(Failure::input)?;
-    let camera = camera(scene, None)?;
-    let gpu = open(None)?;
-    let settings = Settings::default();
-    let renderer = Offscreen::for_display(&gpu, 4, &LtcTable::embedded(), scene, &settings);
-    let mut renderer = renderer.map_err(render_failure)?;
-    let picture = gpu.block_on(renderer.display(&gpu, camera, [1280, 720], &settings, Default::default()));
-    let bytes = picture.map_err(render_failure)?.to_png().map_err(Failure::input)?;
-    write_atomically(output, &bytes).map_err(Failure::input)
+    let (camera, settings) = (&scene.cameras[0], Settings::default());
+    let picture = match pollster::block_on(device::open_offscreen(None)) {
+        Err(DeviceError::NoAdapter) => {
+            reference::plain(scene, &settings, SIZE)?.display(settings.exposure, Default::default())
+        }
+        gpu => {
+            let gpu = gpu.map_err(Failure::device)?;
+            let renderer = Offscreen::for_display(&gpu, 4, &LtcTable::embedded(), scene, &settings);
+            let mut renderer = renderer.map_err(render_failure)?;
+            let picture = gpu.block_on(renderer.display(&gpu, camera, SIZE, &settings, Default::default()));
+            picture.map_err(render_failure)?
+        }
+    };
+    write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
 }
 
 #[cfg(feature = "viewer")]

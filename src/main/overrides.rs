@@ -82,10 +82,9 @@ pub fn roughness_map(text: &str) -> Result<RoughnessMap, String> {
 }
 
 pub fn sheen_model(text: &str) -> Result<SheenModel, String> {
-    match text {
-        "ltc" => Ok(SheenModel::Ltc),
-        _ => Err("give ltc".to_owned()),
-    }
+    let named = SheenModel::NAMES.into_iter().find(|(name, _)| *name == text);
+    let names = SheenModel::NAMES.map(|(name, _)| name).join(", ");
+    named.map(|(_, model)| model).ok_or_else(|| format!("give one of {names}"))
 }
 
 pub fn layering(text: &str) -> Result<Layering, String> {
@@ -94,9 +93,10 @@ pub fn layering(text: &str) -> Result<Layering, String> {
         "openpbr" => Ok(Layering::OpenPbr),
         "reciprocal" => Ok(Layering::Reciprocal),
         "none" => Ok(Layering::None),
+        "walk" => Ok(Layering::Walk),
         _ => {
             let manual = text.strip_prefix("manual=").and_then(|share_left| share(share_left).ok());
-            let wrong = || "give gltf, openpbr, reciprocal, none, or manual=S with S in [0,1]".to_owned();
+            let wrong = || "give gltf, openpbr, reciprocal, none, walk, or manual=S with S in [0,1]".to_owned();
             manual.map(Layering::Manual).ok_or_else(wrong)
         }
     }
@@ -126,12 +126,13 @@ mod tests {
         assert_eq!(share("0"), Ok(0.0));
         assert_eq!(color("1, 0.5,0"), Ok(Vec3::new(1.0, 0.5, 0.0)));
         assert_eq!(layering("manual=0.25"), Ok(Layering::Manual(0.25)));
-        let names = ["gltf", "openpbr", "reciprocal", "none"];
-        let layerings = [Layering::Gltf, Layering::OpenPbr, Layering::Reciprocal, Layering::None];
+        let names = ["gltf", "openpbr", "reciprocal", "none", "walk"];
+        let layerings = [Layering::Gltf, Layering::OpenPbr, Layering::Reciprocal, Layering::None, Layering::Walk];
         assert_eq!(names.map(layering), layerings.map(Ok));
         let maps = [RoughnessMap::Identity, RoughnessMap::Square, RoughnessMap::Sqrt];
         assert_eq!(["identity", "square", "sqrt"].map(roughness_map), maps.map(Ok));
         assert_eq!(sheen_model("ltc"), Ok(SheenModel::Ltc));
+        assert_eq!(sheen_model("conty-kulla"), Ok(SheenModel::ContyKulla));
     }
 
     #[test]
@@ -159,7 +160,7 @@ mod tests {
             ("felt.sheen-color=1", "sheen-color: give three numbers in [0,1]"),
             ("felt.layering=manual=2", "layering: give gltf, openpbr"),
             ("felt.roughness-map=cube", "roughness-map: give identity"),
-            ("felt.sheen-model=slab", "sheen-model: give ltc"),
+            ("felt.sheen-model=felt", "sheen-model: give one of ltc, slab, walk"),
         ] {
             let error = assignment(text).unwrap_err();
             assert!(error.contains(what), "{text}: {error}");

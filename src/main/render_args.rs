@@ -1,15 +1,18 @@
-//! The flags of `velour render` and their ranges.
+//! The flags of `velour render` and `velour reference`, and their ranges.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::Vec3;
+use velour::picture::ToneCurve;
+use velour::reference;
 use velour::scene::{Layering, Lobes, RoughnessMap, SheenModel};
 
 use crate::overrides::{self, Assignment};
 
+/// The flags that all ways of rendering share.
 #[derive(Args)]
-pub struct Render {
+pub struct PictureArgs {
     /// glTF 2.0 scene, .glb or .gltf
     pub scene: PathBuf,
     /// The picture: .png (exposure, tone curve, sRGB) or .exr (linear radiance, 32-bit float)
@@ -30,14 +33,16 @@ pub struct Render {
     /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering; repeatable
     #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
     pub set: Vec<Assignment>,
-    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1] [default: gltf]
-    #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none", value_parser = overrides::layering)]
+    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through both (with
+    /// `velour reference` only) [default: gltf]
+    #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = overrides::layering)]
     pub layering: Option<Layering>,
     /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]
     #[arg(long, value_name = "identity|square|sqrt", value_parser = overrides::roughness_map)]
     pub roughness_map: Option<RoughnessMap>,
-    /// The sheen's lobe: ltc, the fitted transformed cosine [default: ltc]
-    #[arg(long, value_name = "ltc", value_parser = overrides::sheen_model)]
+    /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path by path (both
+    /// with `velour reference` only); or the model of earlier work [default: ltc]
+    #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = overrides::sheen_model)]
     pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds
     #[arg(long, value_name = "FILE")]
@@ -57,15 +62,62 @@ pub struct Render {
     /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral, agx is Blender's AgX
     #[arg(long, default_value = "neutral", value_enum, value_name = "NAME")]
     pub tonemap: Tonemap,
+    /// Prints figures for machines on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
+pub struct Render {
+    #[command(flatten)]
+    pub picture: PictureArgs,
     /// Samples a pixel; with 1 each pixel is the value at its centre
     #[arg(long, default_value = "4", value_name = "1|4", value_parser = samples)]
     pub msaa: u32,
     /// Part of an adapter's name, as `velour info` lists them
     #[arg(long, value_name = "NAME-PART")]
     pub adapter: Option<String>,
-    /// Prints figures for machines on stdout
-    #[arg(long)]
-    pub json: bool,
+}
+
+/// The flags of `velour reference` beside those.
+#[derive(Args)]
+pub struct Reference {
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Samples a pixel
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: u32,
+    /// Another seed gives other noise; the same one the same picture, on any number of threads
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub seed: u64,
+    /// Surfaces that light meets between a light and the one that is seen; 0 is direct light, at most 1000
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub max_bounces: u32,
+    /// Surfaces stand in each other's light
+    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
+    pub shadows: Switch,
+    /// Samples lie all over the pixel, or at its centre as with `velour render --msaa 1`
+    #[arg(long, default_value = "box", value_enum, value_name = "box|centre")]
+    pub filter: Filter,
+    /// The lobe of the specular base: the transformed cosine of real time, or GGX microfacets themselves
+    #[arg(long, default_value = "ltc", value_enum, value_name = "ltc|ggx")]
+    pub specular_model: SpecularModel,
+    /// Each pixel's standard error of radiance, as a picture
+    #[arg(long, value_name = "OUT.exr")]
+    pub errors: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Filter {
+    Box,
+    #[value(alias = "center")]
+    Centre,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum SpecularModel {
+    Ltc,
+    Ggx,
 }
 
 #[derive(Clone, Copy, ValueEnum, PartialEq)]
@@ -81,12 +133,29 @@ pub enum Tonemap {
     Agx,
 }
 
-impl From<Tonemap> for velour::picture::ToneCurve {
+impl From<Tonemap> for ToneCurve {
     fn from(tonemap: Tonemap) -> Self {
         match tonemap {
             Tonemap::None => Self::None,
             Tonemap::Neutral => Self::Neutral,
             Tonemap::Agx => Self::Agx,
+        }
+    }
+}
+
+impl Reference {
+    pub fn options(&self) -> reference::Options {
+        reference::Options {
+            max_bounces: self.max_bounces,
+            shadows: self.shadows == Switch::On,
+            filter: match self.filter {
+                Filter::Box => reference::Filter::Box,
+                Filter::Centre => reference::Filter::Centre,
+            },
+            specular: match self.specular_model {
+                SpecularModel::Ltc => reference::SpecularModel::Ltc,
+                SpecularModel::Ggx => reference::SpecularModel::Ggx,
+            },
         }
     }
 }

@@ -27,6 +27,12 @@ impl Schlick {
         Self { f0, f90 }
     }
 
+    /// One for each colour channel, from values that are clamped to \[0, 1\].
+    pub fn channels(f0: DVec3, f90: DVec3) -> [Self; 3] {
+        let [f0, f90] = [f0, f90].map(|f| f.clamp(DVec3::ZERO, DVec3::ONE));
+        [0, 1, 2].map(|channel| Self::new(f0[channel], f90[channel]))
+    }
+
     /// The reflectance where `cosine` is that of the light to the facet (Schlick 1994).
     fn at(&self, cosine: f64) -> f64 {
         self.f0 + (self.f90 - self.f0) * (1.0 - cosine).max(0.0).powi(5)
@@ -64,6 +70,30 @@ impl Ggx {
         let facets = microfacet::Ggx::from_roughness(roughness);
         let shares = (0..SHARES).map(|k| facets.reflected(node(k, SHARES).powi(3))).collect();
         Self { facets, schlick, shares }
+    }
+
+    /// [`Bsdf::evaluate`] of each channel with reflectances of its own in place of this one's.
+    pub fn evaluate_channels(&self, wi: DVec3, wo: DVec3, schlick: &[Schlick; 3]) -> DVec3 {
+        let (mu_i, mu_o) = (cosine(wi), cosine(wo));
+        if mu_i < 0.0 || mu_o <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let (facets, cosine) = (self.facets.lobe(wi, wo), (wi + wo).length() / 2.0);
+        let albedo = self.shares(mu_i).albedo;
+        DVec3::from(schlick.each_ref().map(|schlick| facets * schlick.at(cosine) * schlick.gain(albedo)))
+    }
+
+    /// [`Bsdf::albedo`] likewise.
+    pub fn albedo_channels(&self, mu: f64, schlick: &[Schlick; 3]) -> DVec3 {
+        let [albedo, fresnel] = self.shares_at(mu);
+        DVec3::from(schlick.each_ref().map(|schlick| schlick.albedo(albedo, fresnel)))
+    }
+
+    /// R and the Fresnel share at a cosine in \[0, 1\], whatever the reflectance: what [`Schlick::albedo`] takes.
+    pub fn shares_at(&self, mu: f64) -> [f64; 2] {
+        check_cosine(mu);
+        let Reflected { albedo, fresnel } = self.shares(mu);
+        [albedo, fresnel]
     }
 
     fn shares(&self, mu: f64) -> Reflected {

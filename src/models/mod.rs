@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`LtcSheen`] | the transformed cosine that renders in real time: a fit of the slab's lobe | sampled perfectly; reciprocal only nearly |
 //! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights to 1.7 R |
+//! | [`SheenWalk`] | the slab path by path, a [`Layer`]: no density, but nothing tabulated | some ten scatterings a path, at low alpha a thousand |
 //! | [`LtcGgx`] | the transformed cosine of the specular base | sampled perfectly; reciprocal only nearly |
 //! | [`Ggx`] | the specular base itself: GGX microfacets, multiple reflection made up for | weights to its albedo over R |
 //! | [`Lambert`] | the diffuse base | |
@@ -46,11 +47,13 @@ mod elevations;
 mod ggx;
 mod lambert;
 mod ltc_sheen;
+mod sheen_walk;
 mod slab_sheen;
 
 pub use ggx::{Ggx, LtcGgx, Schlick};
 pub use lambert::Lambert;
 pub use ltc_sheen::LtcSheen;
+pub use sheen_walk::{Flight, Layer, SheenWalk};
 pub use slab_sheen::{EMPTY_BELOW_ALPHA, SlabSheen};
 
 use glam::DVec3;

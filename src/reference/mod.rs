@@ -1,3 +1,10 @@
-//! The picture in `f64`, by means that share nothing with the shaders.
+//! The picture in `f64`, by means that share nothing with the shaders: the exact form factor of a polygon, and path tracing.
 
+#[cfg(feature = "scenes")]
+pub mod bvh;
 pub mod polygon;
+#[cfg(feature = "scenes")]
+mod render;
+
+#[cfg(feature = "scenes")]
+pub use render::{Effort, Filter, Options, Picture, Reference, ReferenceError, SpecularModel};

@@ -80,7 +80,8 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         Layering::OpenPbr => (1, 1.0),
         Layering::Reciprocal => (2, 1.0),
         Layering::Manual(share) => (3, share),
-        Layering::None => (3, 1.0),
+        // The walk is refused before.
+        Layering::None | Layering::Walk => (3, 1.0),
     };
     GpuMaterial {
         base_color: material.base_color.extend(material.opacity),

@@ -92,6 +92,40 @@ pub enum SheenModel {
     /// The fitted transformed cosine (Zeltner, Burley, Chiang 2022).
     #[default]
     Ltc,
+    /// The slab of fibres that it is fitted to, tabulated.
+    Slab,
+    /// The same, walked through path by path.
+    Walk,
+    /// Burley 2012.
+    Burley,
+    /// Conty Estevez and Kulla 2017.
+    ContyKulla,
+    /// Neubelt and Pettineo 2013.
+    NeubeltPettineo,
+    /// Patry 2020.
+    Patry,
+}
+
+impl SheenModel {
+    /// Each with the name that flags give it.
+    pub const NAMES: [(&'static str, Self); 7] = [
+        ("ltc", Self::Ltc),
+        ("slab", Self::Slab),
+        ("walk", Self::Walk),
+        ("burley", Self::Burley),
+        ("conty-kulla", Self::ContyKulla),
+        ("neubelt-pettineo", Self::NeubeltPettineo),
+        ("patry", Self::Patry),
+    ];
+
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, model)| *model == self).map_or("", |(name, _)| name)
+    }
+
+    /// Whether it can be drawn in real time; the others take a path tracer.
+    pub fn is_real_time(self) -> bool {
+        !matches!(self, Self::Slab | Self::Walk)
+    }
 }
 
 /// What is left of the base under a sheen of colour C and albedo r(mu).
@@ -108,6 +142,8 @@ pub enum Layering {
     Manual(f32),
     /// All of it.
     None,
+    /// What light finds that goes through both, through all orders of scattering: no rule but what rules approximate. Not in real time.
+    Walk,
 }
 
 /// The sheen that a material is drawn with, overrides applied.

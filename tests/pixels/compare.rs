@@ -8,6 +8,7 @@ use velour::renderer::{Gpu, Offscreen, device};
 use velour::scene::{Lobes, Overrides, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
+use super::reference;
 use super::stage::Stage;
 use super::truth::Truth;
 
@@ -47,7 +48,7 @@ pub fn linear(scene: &Scene, table: &LtcTable, settings: &Settings, size: [u32; 
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, settings)).unwrap()
 }
 
-/// Renders the stage, as a scene made here and as a file read, and holds both pictures against the truth.
+/// Renders the stage, as a scene made here and as a file read, and holds both pictures against the truth and the reference.
 pub fn hold(stage: &Stage, settings: &Settings) {
     let table = LtcTable::embedded();
     let truth = Truth::new(stage, &table, settings, SIZE);
@@ -56,6 +57,7 @@ pub fn hold(stage: &Stage, settings: &Settings) {
     for (way, scene) in [("made", stage.scene()), ("read", read)] {
         let picture = linear(&scene, &table, settings, SIZE);
         differences(&picture, &truth).unwrap_or_else(|said| panic!("the scene {way}: {said}"));
+        reference::hold(&picture, &scene, &table, settings);
     }
 }
 

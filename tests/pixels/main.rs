@@ -7,6 +7,7 @@ mod compare;
 mod golden;
 mod lights;
 mod radiance;
+mod reference;
 mod run;
 mod shown;
 mod stage;

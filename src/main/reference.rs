@@ -1,0 +1,175 @@
+//! `velour reference`: pictures by path tracing; and those of `velour render` where there is no device.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde_json::json;
+use velour::picture::{Format, check_writable, write_atomically};
+use velour::reference::{Effort, Options, Picture, ReferenceError};
+use velour::reference::{Reference as Renderer, SpecularModel};
+
+use crate::inputs::{Inputs, Timing, encoded};
+use crate::output::with_progress;
+use crate::render_args::{PictureArgs, Reference};
+use crate::{Failure, complain, say};
+
+#[cfg(feature = "gpu")]
+use {
+    crate::render_args::Render,
+    velour::picture::LinearImage,
+    velour::reference::Filter,
+    velour::scene::{Scene, Settings},
+    velour::table::LtcTable,
+};
+
+/// Set once the user has asked for an end: what there is is written. Asked twice, the program ends at once.
+static ENDING: AtomicBool = AtomicBool::new(false);
+
+/// How much is done where nobody said: with the lobes of real time, whose light is found exactly, it only has to smooth edges.
+#[cfg(feature = "gpu")]
+const PLAIN: Effort = Effort { samples: 64, seed: 0 };
+
+pub fn reference(arguments: &Reference) -> Result<(), Failure> {
+    let mut timing = Timing::default();
+    if let Some(errors) = &arguments.errors {
+        if !matches!(Format::of(errors), Ok(Format::Exr)) {
+            return Err(Failure::input(format!("--errors {}: errors are numbers: use .exr", errors.display())));
+        }
+        check_writable(errors).map_err(Failure::input)?;
+    }
+    let inputs = Inputs::load(&arguments.picture, &mut timing)?;
+    let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
+    let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
+    if let Some(errors) = &arguments.errors {
+        let bytes = picture.errors.to_exr().map_err(Failure::input)?;
+        write_atomically(errors, &bytes).map_err(Failure::input)?;
+    }
+    finish(&arguments.picture, &inputs, &picture, counts, &mut timing)
+}
+
+/// What was followed.
+struct Counts {
+    rays: u64,
+    triangles: usize,
+    wanted: u64,
+}
+
+fn failure(error: ReferenceError) -> Failure {
+    match error {
+        ReferenceError::Size { .. } => Failure::input(format!("--size: {error}")),
+        ReferenceError::Triangles { .. } => Failure::input(error),
+    }
+}
+
+fn render(
+    inputs: &Inputs,
+    arguments: &PictureArgs,
+    options: Options,
+    effort: Effort,
+    timing: &mut Timing,
+) -> Result<(Picture, Counts), Failure> {
+    // Without the handler Ctrl-C ends the program as ever.
+    let _ = ctrlc::set_handler(|| {
+        if ENDING.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    let Inputs { scene, settings, table, .. } = inputs;
+    let renderer = timing.measure("build", || Renderer::new(scene, settings, table, options)).map_err(failure)?;
+    let camera = inputs.camera();
+    let picture = timing.measure("render", || {
+        with_progress("reference", |step| {
+            renderer.render(camera, arguments.size, effort, |done, all| {
+                step(done as usize, all as usize);
+                !ENDING.load(Ordering::Relaxed)
+            })
+        })
+    });
+    let counts = Counts { rays: renderer.rays(), triangles: renderer.triangles(), wanted: effort.samples };
+    Ok((picture.map_err(failure)?, counts))
+}
+
+/// Writes the picture and says what it is.
+fn finish(
+    arguments: &PictureArgs,
+    inputs: &Inputs,
+    picture: &Picture,
+    counts: Counts,
+    timing: &mut Timing,
+) -> Result<(), Failure> {
+    let bytes = timing.measure("encode", || encoded(&picture.radiance, inputs.format, arguments));
+    let bytes = bytes.map_err(Failure::input)?;
+    timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
+    inputs.warn();
+    if picture.samples < counts.wanted {
+        complain(format!("interrupted: the picture has {} of {} samples a pixel", picture.samples, counts.wanted));
+    }
+    report(arguments, inputs, picture, &counts, timing);
+    Ok(())
+}
+
+fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &Counts, timing: &Timing) {
+    let output = arguments.output.display();
+    let [width, height] = arguments.size;
+    let (error, worst) = (picture.relative_error(), picture.error_quantile(0.99));
+    let rendered = timing.0.iter().find(|(part, _)| *part == "render").map_or(0.0, |(_, seconds)| *seconds);
+    let speed = counts.rays as f64 / rendered.max(1e-9);
+    if arguments.json {
+        let seconds: serde_json::Map<_, _> =
+            timing.0.iter().map(|(part, seconds)| (part.to_string(), json!(seconds))).collect();
+        say(json!({
+            "output": output.to_string(),
+            "size": arguments.size,
+            "samples": picture.samples,
+            "samples_wanted": counts.wanted,
+            "batches": picture.batches,
+            "relative_error": error,
+            "relative_error_99": worst,
+            "triangles": counts.triangles,
+            "lights": inputs.scene.lights.len(),
+            "rays": counts.rays,
+            "rays_per_second": speed,
+            "seconds": seconds,
+            "total_seconds": timing.total(),
+        }));
+        return;
+    }
+    let percent = |share: Option<f64>| share.map_or("unknown".to_owned(), |share| format!("{:.3}%", 100.0 * share));
+    say(format!(
+        "{output}: {width}x{height}, {} samples a pixel in {:.2} s, {:.2} million rays a second; standard error {} of the mean \
+         radiance on average, 99% of the pixels below {} of theirs",
+        picture.samples,
+        timing.total(),
+        speed / 1e6,
+        percent(error),
+        percent(worst),
+    ));
+}
+
+/// What `velour render` draws, without a device: no shadows, and samples at the pixels' centres where it takes one.
+#[cfg(feature = "gpu")]
+pub fn in_place_of_a_device(arguments: &Render, inputs: &Inputs, mut timing: Timing) -> Result<(), Failure> {
+    let filter = if arguments.msaa == 1 { Filter::Centre } else { Filter::Box };
+    let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
+    let (picture, counts) = render(inputs, &arguments.picture, options, PLAIN, &mut timing)?;
+    complain(NO_DEVICE);
+    finish(&arguments.picture, inputs, &picture, counts, &mut timing)
+}
+
+#[cfg(feature = "gpu")]
+const NO_DEVICE: &str =
+    "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
+
+/// The same of a scene as it is.
+#[cfg(feature = "viewer")]
+pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
+    let options = Options { shadows: false, ..Options::default() };
+    let renderer = Renderer::new(scene, settings, &LtcTable::embedded(), options).map_err(failure)?;
+    let picture = with_progress("reference", |step| {
+        renderer.render(&scene.cameras[0], size, PLAIN, |done, all| {
+            step(done as usize, all as usize);
+            true
+        })
+    });
+    complain(NO_DEVICE);
+    Ok(picture.map_err(failure)?.radiance)
+}

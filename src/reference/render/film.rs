@@ -1,0 +1,87 @@
+//! A picture's sums, and how far they may be off.
+
+use glam::DVec3;
+
+use super::luminance;
+use crate::picture::LinearImage;
+
+/// A pixel's mean and the scatter of its batches about it (Welford 1962, weighted).
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pixel {
+    mean: DVec3,
+    scatter: DVec3,
+}
+
+/// All pixels: rows from the top. Each is made of batches of samples that are independent of each other.
+pub(super) struct Film {
+    size: [u32; 2],
+    pixels: Vec<Pixel>,
+    samples: u64,
+    batches: u64,
+}
+
+impl Film {
+    pub fn new(size: [u32; 2]) -> Self {
+        let count = size[0] as usize * size[1] as usize;
+        Self { size, pixels: vec![Pixel::default(); count], samples: 0, batches: 0 }
+    }
+
+    /// Adds a batch of `samples` a pixel, of which each has its mean.
+    pub fn add(&mut self, means: impl Iterator<Item = DVec3>, samples: u64) {
+        self.samples += samples;
+        self.batches += 1;
+        let (weight, share) = (samples as f64, samples as f64 / self.samples as f64);
+        for (pixel, mean) in self.pixels.iter_mut().zip(means) {
+            let before = mean - pixel.mean;
+            pixel.mean += share * before;
+            pixel.scatter += weight * before * (mean - pixel.mean);
+        }
+    }
+
+    pub fn finish(self) -> Picture {
+        let Self { size: [width, height], samples, batches, pixels } = self;
+        let image = |value: &dyn Fn(&Pixel) -> DVec3| {
+            let pixels = pixels.iter().map(|pixel| value(pixel).as_vec3().to_array()).collect();
+            LinearImage { width, height, pixels }
+        };
+        let deviation = |pixel: &Pixel| {
+            let scale = if batches > 1 { 1.0 / ((batches - 1) as f64 * samples as f64) } else { f64::NAN };
+            (pixel.scatter * scale).map(f64::sqrt)
+        };
+        Picture { radiance: image(&|pixel| pixel.mean), errors: image(&deviation), samples, batches }
+    }
+}
+
+/// A rendered picture.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    pub radiance: LinearImage,
+    /// The standard error of each pixel and channel, estimated from its batches; not a number where there is one batch only.
+    pub errors: LinearImage,
+    /// Samples a pixel.
+    pub samples: u64,
+    /// Of how many independent batches.
+    pub batches: u64,
+}
+
+impl Picture {
+    /// The mean standard error of the pixels' luminance over their mean luminance: 0.01 is one percent of noise. None where it is
+    /// not known, or all is black.
+    pub fn relative_error(&self) -> Option<f64> {
+        let sum = |image: &LinearImage| image.pixels.iter().map(|pixel| luminance(pixel.map(f64::from).into())).sum::<f64>();
+        let (errors, radiance) = (sum(&self.errors), sum(&self.radiance));
+        (errors.is_finite() && radiance > 0.0).then(|| errors / radiance)
+    }
+
+    /// The standard error below which a share in \[0, 1\] of the pixels that are not black lies, over the pixel's luminance.
+    pub fn error_quantile(&self, share: f64) -> Option<f64> {
+        let pair = |(error, pixel): (&[f32; 3], &[f32; 3])| {
+            let [error, radiance] = [error, pixel].map(|pixel| luminance(pixel.map(f64::from).into()));
+            (radiance > 0.0).then(|| error / radiance)
+        };
+        let mut relative: Vec<f64> = self.errors.pixels.iter().zip(&self.radiance.pixels).filter_map(pair).collect();
+        relative.sort_by(f64::total_cmp);
+        let at = (share * relative.len() as f64) as usize;
+        relative.get(at.min(relative.len().saturating_sub(1))).copied().filter(|error| error.is_finite())
+    }
+}

@@ -1,0 +1,224 @@
+//! Lights as paths find them: polygons cut into convex parts, and lights without extent.
+
+use earcut::Earcut;
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::reference::bvh::Ray;
+use super::convex::{Convex, clip, cosine_share, edges};
+use super::luminance;
+use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
+use crate::table::SpecularLtc;
+
+/// A point no further from a light's plane than this share of the largest coordinate is in it, as in real time: emitters are stored
+/// in `f32`, and no light shines on itself.
+const IN_PLANE: f64 = 1e-6;
+/// Distances to lights without extent are no less, metres.
+const NEAREST: f64 = 1e-6;
+
+/// A convex part of a polygon light.
+pub(super) struct Part {
+    vertices: Vec<DVec3>,
+    normal: DVec3,
+    radiance: DVec3,
+    two_sided: bool,
+    /// Of its emitter.
+    instance: usize,
+}
+
+/// All lights of a scene.
+pub(super) struct Lights<'a> {
+    parts: Vec<Part>,
+    pub punctual: &'a [PunctualLight],
+}
+
+/// A part as a point sees it: what of it is above the horizon, in the point's frame.
+pub(super) struct Seen<'a> {
+    part: &'a Part,
+    outline: Vec<DVec3>,
+}
+
+/// A direction that is lit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lit {
+    /// Unit, in the point's frame.
+    pub wo: DVec3,
+    pub radiance: DVec3,
+    pub distance: f64,
+    /// The emitter's.
+    pub instance: usize,
+}
+
+impl<'a> Lights<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        let lit = scene.lights.iter().filter(|light| light.radiance != glam::Vec3::ZERO);
+        let parts = lit.flat_map(|light| light.polygons.iter().flat_map(move |polygon| parts(light, polygon)));
+        Self { parts: parts.collect(), punctual: &scene.punctual_lights }
+    }
+
+    /// What a point sees of them: `p_world` and its frame, `up` the surface's own normal in it, which a normal map leaves.
+    pub fn seen(&self, p_world: DVec3, local_from_world: DMat3, up: DVec3) -> Vec<Seen<'_>> {
+        let seen = |part: &'_ Part| {
+            let to_vertex = part.vertices[0] - p_world;
+            let height = -part.normal.dot(to_vertex);
+            let size = (p_world.abs() + to_vertex.abs()).max_element();
+            if height.abs() <= IN_PLANE * size || (height < 0.0 && !part.two_sided) {
+                return None;
+            }
+            let outline: Vec<DVec3> = part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
+            let mut outline = clip(&outline, DVec3::Z);
+            if up != DVec3::Z {
+                outline = clip(&outline, up);
+            }
+            (outline.len() >= 3).then_some(outline)
+        };
+        self.parts.iter().filter_map(|part| seen(part).map(|outline| Seen { part, outline })).collect()
+    }
+}
+
+impl Seen<'_> {
+    pub fn radiance(&self) -> DVec3 {
+        self.part.radiance
+    }
+
+    /// The share of a transformed cosine that falls on it.
+    pub fn share(&self, ltc: &SpecularLtc) -> f64 {
+        cosine_share(&self.transformed(ltc)).abs()
+    }
+
+    fn transformed(&self, ltc: &SpecularLtc) -> Vec<DVec3> {
+        let place = |v: &DVec3| DVec3::new(ltc.a * v.x + ltc.b * v.z, ltc.c * v.y, v.z.max(0.0));
+        self.outline.iter().map(place).collect()
+    }
+
+    /// A direction with the transformed cosine's density over its share.
+    pub fn sample(&self, ltc: &SpecularLtc, uniforms: [f64; 2]) -> Option<Lit> {
+        let direction = Convex::new(&self.transformed(ltc)).sample(uniforms)?;
+        let SpecularLtc { a, b, c } = *ltc;
+        let wo = DVec3::new(direction.x - b * direction.z, a / c * direction.y, a * direction.z).try_normalize()?;
+        Some(self.lit(wo)).filter(|_| wo.z > 0.0)
+    }
+
+    fn lit(&self, wo: DVec3) -> Lit {
+        // The plane through any three vertices that span it; outlines are cut, so it is the part's own.
+        let normal: DVec3 = edges(&self.outline).map(|(p, q)| (p - self.outline[0]).cross(q - self.outline[0])).sum();
+        let distance = normal.dot(self.outline[0]) / normal.dot(wo);
+        let distance = if distance.is_finite() { distance.abs() } else { self.outline[0].length() };
+        Lit { wo, radiance: self.part.radiance, distance, instance: self.part.instance }
+    }
+
+    /// What a direction meets of it.
+    pub fn along(&self, wo: DVec3) -> Option<Lit> {
+        let sides = || edges(&self.outline).map(|(p, q)| p.cross(q).dot(wo));
+        let inside = sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0);
+        let ahead = self.outline.iter().sum::<DVec3>().dot(wo) > 0.0 || self.outline.iter().any(|v| v.dot(wo) > 0.0);
+        (inside && ahead).then(|| self.lit(wo))
+    }
+}
+
+/// Cuts a polygon into convex parts: itself where it is one, otherwise triangles.
+fn parts(light: &Light, polygon: &Polygon) -> Vec<Part> {
+    let normal = polygon.normal.as_dvec3();
+    let part = |vertices: Vec<DVec3>| Part {
+        vertices,
+        normal,
+        radiance: light.radiance.as_dvec3(),
+        two_sided: light.two_sided,
+        instance: light.instance,
+    };
+    let contours: Vec<Vec<DVec3>> =
+        polygon.contours.iter().map(|contour| contour.iter().map(|vertex| vertex.as_dvec3()).collect()).collect();
+    if let [contour] = &contours[..]
+        && is_convex(contour, normal)
+    {
+        return vec![part(contour.clone())];
+    }
+    triangles(&contours, normal).into_iter().map(|triangle| part(triangle.to_vec())).collect()
+}
+
+/// Whether an outline turns left everywhere, and once in all.
+fn is_convex(contour: &[DVec3], normal: DVec3) -> bool {
+    let flat = flattened(contour, normal);
+    let count = flat.len();
+    let turn = |k: usize| (flat[(k + 1) % count] - flat[k]).angle_to(flat[(k + 2) % count] - flat[(k + 1) % count]);
+    let turns: Vec<f64> = (0..count).map(turn).collect();
+    turns.iter().all(|turn| *turn >= -1e-9) && (turns.iter().sum::<f64>() - std::f64::consts::TAU).abs() < 1e-6
+}
+
+fn flattened(contour: &[DVec3], normal: DVec3) -> Vec<DVec2> {
+    let (x, y) = normal.any_orthonormal_pair();
+    contour.iter().map(|vertex| DVec2::new(x.dot(*vertex), y.dot(*vertex))).collect()
+}
+
+/// Triangles of a polygon with holes. Holes are told from areas by their winding; each area takes the holes inside of it.
+fn triangles(contours: &[Vec<DVec3>], normal: DVec3) -> Vec<[DVec3; 3]> {
+    let flat: Vec<Vec<DVec2>> = contours.iter().map(|contour| flattened(contour, normal)).collect();
+    let (areas, holes): (Vec<usize>, Vec<usize>) = (0..flat.len()).partition(|&at| signed_area(&flat[at]) >= 0.0);
+    let mut found = Vec::new();
+    let mut cutter = Earcut::new();
+    for &area in &areas {
+        // The innermost area that holds a hole is its own.
+        let own = holes.iter().filter(|&&hole| {
+            let around = areas.iter().filter(|&&other| surrounds(&flat[other], flat[hole][0]));
+            around.min_by(|&&i, &&j| signed_area(&flat[i]).total_cmp(&signed_area(&flat[j]))) == Some(&area)
+        });
+        let mut order = vec![area];
+        order.extend(own);
+        let vertices: Vec<DVec3> = order.iter().flat_map(|&at| contours[at].iter().copied()).collect();
+        let starts: Vec<u32> = order[..order.len() - 1]
+            .iter()
+            .scan(0, |sum, &at| {
+                *sum += contours[at].len() as u32;
+                Some(*sum)
+            })
+            .collect();
+        let mut corners: Vec<u32> = Vec::new();
+        cutter.earcut(order.iter().flat_map(|&at| flat[at].iter().map(|v| [v.x, v.y])), &starts, &mut corners);
+        found.extend(corners.as_chunks::<3>().0.iter().map(|corners| corners.map(|corner| vertices[corner as usize])));
+    }
+    found
+}
+
+fn signed_area(contour: &[DVec2]) -> f64 {
+    let next = contour.iter().cycle().skip(1);
+    let origin = contour[0];
+    contour.iter().zip(next).map(|(p, q)| 0.5 * (*p - origin).perp_dot(*q - origin)).sum()
+}
+
+/// Whether a ray from the point crosses the outline an odd number of times.
+fn surrounds(contour: &[DVec2], at: DVec2) -> bool {
+    let next = contour.iter().cycle().skip(1);
+    let crossed = |(p, q): &(&DVec2, &DVec2)| {
+        (p.y > at.y) != (q.y > at.y) && at.x < p.x + (at.y - p.y) / (q.y - p.y) * (q.x - p.x)
+    };
+    contour.iter().zip(next).filter(crossed).count() % 2 == 1
+}
+
+/// What a light without extent sends to a point: the direction to it, the distance (infinite for directional ones), and the
+/// irradiance across the ray (KHR_lights_punctual).
+pub(super) fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, f64, DVec3) {
+    let (intensity, direction) = (light.intensity.as_dvec3(), light.direction.as_dvec3());
+    let way = light.position.as_dvec3() - p_world;
+    let distance = way.length().max(NEAREST);
+    let falloff = |range: f32| (1.0 - (distance / f64::from(range)).powi(4)).clamp(0.0, 1.0) / (distance * distance);
+    match light.kind {
+        PunctualKind::Directional => (-direction, f64::INFINITY, intensity),
+        PunctualKind::Point { range } => (way / distance, distance, intensity * falloff(range)),
+        PunctualKind::Spot { range, inner, outer } => {
+            let cosine = direction.dot(-way / distance);
+            // In f32, as the angles are stored: their cosines may be near each other.
+            let scale = 1.0 / f64::from((inner.cos() - outer.cos()).max(1e-3));
+            let cone = (scale * (cosine - f64::from(outer.cos()))).clamp(0.0, 1.0).powi(2);
+            (way / distance, distance, intensity * falloff(range) * cone)
+        }
+    }
+}
+
+/// The ray from a point towards a lit direction.
+pub(super) fn shadow_ray(origin: DVec3, world_from_local: DMat3, wo: DVec3) -> Ray {
+    Ray { origin, direction: (world_from_local * wo).normalize() }
+}
+
+/// How much a lobe's colour and a light's radiance are worth together.
+pub(super) fn worth(color: DVec3, radiance: DVec3) -> f64 {
+    luminance(color * radiance)
+}

@@ -1,0 +1,230 @@
+//! Radiance along a ray: direct light, and what comes by way of other surfaces.
+//!
+//! At each point one direction is sampled on the lights and, in a share of the samples, one in the lobes; both are weighed by the
+//! balance heuristic (Veach and Guibas 1995).
+
+use glam::{DVec3, Vec3};
+
+use super::Options;
+use crate::reference::bvh::Ray;
+use super::chooser::Chooser;
+use super::lights::{Lights, Lit, arriving, shadow_ray};
+use super::lobes::Lobes;
+use super::models::Models;
+use super::stack::{Stack, is_walked};
+use super::surface::Surface;
+use super::uniforms::Uniforms;
+use super::world::World;
+use crate::scene::{PunctualLight, Settings};
+use crate::table::SpecularLtc;
+
+/// In how many of the samples light is looked for in the lobes: the lights find nearly all of it, these what they find too rarely.
+const LOBES_SHARE: f64 = 0.25;
+/// What lies behind blended surfaces that leave less of it is not looked at.
+const LEAST_SEEN: f64 = 1e-4;
+/// Blended surfaces, and holes, that a path goes through at most.
+const LAYERS_MOST: usize = 256;
+/// Paths that bring less than this are ended at random.
+const ROULETTE: f64 = 0.1;
+
+/// All that light meets.
+pub(super) struct Light<'a> {
+    pub world: World<'a>,
+    pub lights: Lights<'a>,
+    pub models: Models,
+    pub settings: &'a Settings,
+    pub options: Options,
+    /// Instances whose emission is that of a light: it is looked for.
+    pub is_light: Vec<bool>,
+}
+
+/// The ray on which a path goes on, and what its radiance is multiplied by; none where it ends.
+pub(super) type Onward = Option<(Ray, DVec3)>;
+
+/// One sample's numbers, and what it cost.
+pub(super) struct Sample {
+    pub uniforms: Uniforms,
+    pub rays: u64,
+}
+
+impl Light<'_> {
+    /// Radiance that comes to the camera along a ray between two distances.
+    pub fn radiance(&self, ray: &Ray, [mut near, far]: [f64; 2], sample: &mut Sample) -> DVec3 {
+        let (mut radiance, mut seen) = (DVec3::ZERO, 1.0);
+        for _ in 0..LAYERS_MOST {
+            sample.rays += 1;
+            let Some(hit) = self.world.nearest_seen(ray, [near, far]) else { break };
+            if hit.opacity > 0.0 {
+                let surface = Surface::new(&self.world, self.settings, ray, &hit);
+                radiance += seen * hit.opacity * self.leaving(surface, sample);
+            }
+            seen *= 1.0 - hit.opacity;
+            if seen < LEAST_SEEN {
+                break;
+            }
+            near = hit.distance.next_up().max(hit.distance + self.world.apart);
+        }
+        radiance
+    }
+
+    /// Radiance that leaves a surface to the camera.
+    fn leaving(&self, surface: Surface, sample: &mut Sample) -> DVec3 {
+        let mut radiance = self.emitted(&surface);
+        let mut throughput = DVec3::ONE;
+        let mut surface = surface;
+        for bounce in 0..=self.options.max_bounces {
+            if surface.unlit {
+                break;
+            }
+            let (reflected, next) = self.reflected(&surface, bounce < self.options.max_bounces, sample);
+            radiance += throughput * reflected;
+            let Some((ray, weight)) = next else { break };
+            throughput *= weight;
+            let Some((instance, met)) = self.met(&ray, sample) else { break };
+            surface = met;
+            if !self.is_light[instance] {
+                radiance += throughput * self.emitted(&surface);
+            }
+            let worth = throughput.max_element();
+            if worth < ROULETTE {
+                let survival = worth / ROULETTE;
+                if sample.uniforms.next()[0] >= survival {
+                    break;
+                }
+                throughput /= survival;
+            }
+        }
+        radiance
+    }
+
+    fn emitted(&self, surface: &Surface) -> DVec3 {
+        let emitted = if surface.unlit { surface.base_color } else { surface.emission };
+        if self.settings.lobes.emission { emitted } else { DVec3::ZERO }
+    }
+
+    /// The surface that a path meets next, with its instance; blended ones are there in as many cases as they are opaque.
+    fn met(&self, ray: &Ray, sample: &mut Sample) -> Option<(usize, Surface)> {
+        let mut near = self.world.apart;
+        for _ in 0..LAYERS_MOST {
+            sample.rays += 1;
+            let hit = self.world.nearest(ray, [near, f64::INFINITY])?;
+            if hit.opacity >= 1.0 || sample.uniforms.next()[0] < hit.opacity {
+                // The backs of one-sided surfaces are black.
+                let is_seen = hit.front || self.world.material(&hit).double_sided;
+                let surface = Surface::new(&self.world, self.settings, ray, &hit);
+                return is_seen.then(|| (self.world.instance(&hit), surface));
+            }
+            near = hit.distance.next_up().max(hit.distance + self.world.apart);
+        }
+        None
+    }
+
+    /// Light that a surface scatters to the view, and, where the path goes `on`, its next ray with what it brings.
+    fn reflected(&self, surface: &Surface, on: bool, sample: &mut Sample) -> (DVec3, Onward) {
+        let lobes = Lobes::new(surface, &self.models, self.settings.lobes);
+        let chooser = self.chooser(surface, &lobes);
+        let numbers = [sample.uniforms.next(), sample.uniforms.next()];
+        match surface.sheen.filter(is_walked) {
+            None => self.scattered(surface, (&lobes, &chooser), on, numbers, &mut sample.rays),
+            Some(at) => {
+                let stack = Stack::new(self, surface, &at, (&lobes, &chooser));
+                stack.reflected(on, numbers, &mut sample.uniforms.stream(), &mut sample.rays)
+            }
+        }
+    }
+
+    /// The lights that a surface sees, by its lobes; a layer that is walked through by the transformed cosine that resembles it.
+    fn chooser(&self, surface: &Surface, lobes: &Lobes) -> Chooser<'_> {
+        let mut sampled: Vec<_> = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
+        if let Some(at) = surface.sheen.filter(is_walked) {
+            let [a, b, r] = self.models.sheen_table.lookup(at.alpha, surface.mu());
+            sampled.push((at.color * r, SpecularLtc { a, b, c: a }));
+        }
+        sampled.retain(|(color, ltc)| color.max_element() > 0.0 && ltc.a > 0.0);
+        Chooser::new(sampled, self.lights.seen(surface.p_world, surface.world_from_local.transpose(), surface.up))
+    }
+
+    /// Light scattered by lobes that are functions.
+    pub fn scattered(
+        &self,
+        surface: &Surface,
+        (lobes, chooser): (&Lobes, &Chooser),
+        on: bool,
+        [first, second]: [[f64; 4]; 2],
+        rays: &mut u64,
+    ) -> (DVec3, Onward) {
+        let mut sum = DVec3::ZERO;
+        if lobes.lobes.is_empty() {
+            return (sum, None);
+        }
+        if let Some(lit) = chooser.sample(first[0], [first[1], first[2]]) {
+            let density = chooser.pdf(&lit) + LOBES_SHARE * lobes.pdf(lit.wo);
+            let value = lobes.evaluate(lit.wo) * lit.radiance / density;
+            sum += value * self.visible(surface, &lit, rays);
+        }
+        for light in self.lights.punctual {
+            if let Some((wo, irradiance)) = self.from_punctual(light, surface, rays) {
+                sum += lobes.evaluate(wo) * irradiance;
+            }
+        }
+        let lobe_counts = first[3] < LOBES_SHARE;
+        let has_ambient = self.settings.ambient != Vec3::ZERO;
+        if has_ambient && !self.options.shadows {
+            sum += self.settings.ambient.as_dvec3() * surface.occlusion * lobes.albedo();
+        }
+        let is_needed = lobe_counts || on || (has_ambient && self.options.shadows);
+        let Some(wo) = is_needed.then(|| lobes.sample(second[0], [second[1], second[2]])).flatten() else {
+            return (sum, None);
+        };
+        let (value, pdf) = (lobes.evaluate(wo), lobes.pdf(wo));
+        if !(pdf > 0.0 && value.max_element() > 0.0 && surface.up.dot(wo) > 0.0) {
+            return (sum, None);
+        }
+        if lobe_counts {
+            for lit in chooser.along(wo) {
+                let density = chooser.pdf(&lit) + LOBES_SHARE * pdf;
+                sum += value * lit.radiance / density * self.visible(surface, &lit, rays);
+            }
+        }
+        let weight = value / pdf;
+        if has_ambient && self.options.shadows {
+            sum += weight * self.from_environment(surface, wo, rays);
+        }
+        (sum, on.then(|| (shadow_ray(surface.origin, surface.world_from_local, wo), weight)))
+    }
+
+    /// Radiance of the environment from a direction, as much of it as comes through.
+    pub fn from_environment(&self, surface: &Surface, wo: DVec3, rays: &mut u64) -> DVec3 {
+        let ambient = self.settings.ambient.as_dvec3() * surface.occlusion;
+        if !self.options.shadows {
+            return ambient;
+        }
+        *rays += 1;
+        let ray = shadow_ray(surface.origin, surface.world_from_local, wo);
+        ambient * self.world.passing(&ray, [self.world.apart, f64::INFINITY], (usize::MAX, 0.0))
+    }
+
+    /// How much of a light is seen in a direction.
+    pub fn visible(&self, surface: &Surface, lit: &Lit, rays: &mut u64) -> f64 {
+        if !self.options.shadows {
+            return 1.0;
+        }
+        *rays += 1;
+        let ray = shadow_ray(surface.origin, surface.world_from_local, lit.wo);
+        // The light's own surface is a rounding away from where it is found.
+        let range = [self.world.apart, lit.distance * (1.0 - 1e-7)];
+        self.world.passing(&ray, range, (lit.instance, lit.distance * (1.0 - 1e-3)))
+    }
+
+    /// The direction to a light without extent and what arrives of it across the ray, if it is above the horizon.
+    pub fn from_punctual(&self, light: &PunctualLight, surface: &Surface, rays: &mut u64) -> Option<(DVec3, DVec3)> {
+        let (direction, distance, irradiance) = arriving(light, surface.p_world);
+        // Where the light is at the point itself, its direction is none.
+        let wo = (surface.world_from_local.transpose() * direction).try_normalize()?;
+        if wo.z <= 0.0 || surface.up.dot(wo) <= 0.0 || irradiance == DVec3::ZERO {
+            return None;
+        }
+        let lit = Lit { wo, radiance: irradiance, distance, instance: usize::MAX };
+        Some((wo, irradiance * self.visible(surface, &lit, rays)))
+    }
+}

@@ -1,0 +1,137 @@
+//! What a surface is made of at a point, and the frame that it is seen in.
+
+use glam::{DMat3, DVec3};
+
+use crate::reference::bvh::Ray;
+use super::world::{Hit, World};
+use crate::scene::{Layering, Settings, SheenModel, TextureSlot};
+
+/// A point of a surface as it is seen from one direction, factors and textures multiplied.
+pub(super) struct Surface {
+    pub p_world: DVec3,
+    /// Where rays start.
+    pub origin: DVec3,
+    /// Columns x, y, z: z is the shading normal on the view's side of the surface, x lies towards the view's projection.
+    pub world_from_local: DMat3,
+    /// The direction to the view in that frame, y = 0; on the horizon where the shading normal turns away from it.
+    pub wi: DVec3,
+    /// The normal without the normal map, in that frame.
+    pub up: DVec3,
+    pub material: usize,
+    pub base_color: DVec3,
+    pub metallic: f64,
+    pub roughness: f64,
+    /// Of the dielectric base.
+    pub f0: DVec3,
+    pub f90: f64,
+    pub sheen: Option<SheenAt>,
+    pub emission: DVec3,
+    pub unlit: bool,
+    /// What the occlusion texture leaves of light from the environment.
+    pub occlusion: f64,
+}
+
+/// The layer of fibres at a point.
+#[derive(Clone, Copy)]
+pub(super) struct SheenAt {
+    /// `C_sheen`, weighted.
+    pub color: DVec3,
+    pub weight: f64,
+    pub alpha: f64,
+    pub model: SheenModel,
+    pub layering: Layering,
+}
+
+impl SheenAt {
+    /// `C_sheen` where the layer is.
+    pub fn tint(&self) -> DVec3 {
+        if self.weight > 0.0 { self.color / self.weight } else { DVec3::ZERO }
+    }
+}
+
+impl Surface {
+    /// The view's cosine to the shading normal, in \[0, 1\].
+    pub fn mu(&self) -> f64 {
+        self.wi.z.min(1.0)
+    }
+
+    pub fn new(world: &World, settings: &Settings, ray: &Ray, hit: &Hit) -> Self {
+        let material = world.material(hit);
+        let index = world.material_index(hit);
+        let p_world = ray.at(hit.distance);
+        let side = if hit.front { 1.0 } else { -1.0 };
+        let (interpolated, mapped) = normals(world, hit, f64::from(material.normal_scale));
+        let (normal, up) = (side * mapped, side * interpolated.normalize_or_zero());
+        let view = -ray.direction;
+        let world_from_local = frame(normal, view);
+        let local_from_world = world_from_local.transpose();
+        let wi = local_from_world * view;
+        let texel = |slot| world.texel(hit, slot);
+        let color = world.color(hit).truncate();
+        let rough = texel(TextureSlot::MetallicRoughness);
+        let occlusion = texel(TextureSlot::Occlusion)
+            .map_or(1.0, |texel| 1.0 + f64::from(material.occlusion_strength) * (texel.x - 1.0));
+        let strength = texel(TextureSlot::Specular).map_or(1.0, |texel| texel.w);
+        let tint = texel(TextureSlot::SpecularColor).map_or(DVec3::ONE, |texel| texel.truncate());
+        let f90 = f64::from(material.specular) * strength;
+        Self {
+            p_world,
+            origin: world.lifted(hit, p_world),
+            world_from_local,
+            wi: DVec3::new(wi.x, 0.0, wi.z.max(0.0)).try_normalize().unwrap_or(DVec3::Z),
+            up: local_from_world * up,
+            material: index,
+            base_color: material.base_color.as_dvec3()
+                * color
+                * texel(TextureSlot::BaseColor).map_or(DVec3::ONE, |texel| texel.truncate()),
+            metallic: f64::from(material.metallic) * rough.map_or(1.0, |texel| texel.z),
+            roughness: f64::from(material.roughness) * rough.map_or(1.0, |texel| texel.y),
+            // Tints may be greater than 1.
+            f0: (material.dielectric_f0().as_dvec3() * strength * tint).min(DVec3::splat(f90)),
+            f90,
+            sheen: sheen(world, settings, hit),
+            emission: world.emission(hit) * texel(TextureSlot::Emission).map_or(DVec3::ONE, |texel| texel.truncate()),
+            unlit: material.unlit,
+            occlusion,
+        }
+    }
+}
+
+fn sheen(world: &World, settings: &Settings, hit: &Hit) -> Option<SheenAt> {
+    let index = world.material_index(hit);
+    let look = settings.sheen_of(index, world.material(hit))?;
+    let texel = |slot, counts: bool| if counts { world.texel(hit, slot) } else { None };
+    let tint = texel(TextureSlot::SheenColor, look.color_is_textured).map_or(DVec3::ONE, |texel| texel.truncate());
+    let share = texel(TextureSlot::SheenWeight, look.color_is_textured).map_or(1.0, |texel| texel.x);
+    let rough = texel(TextureSlot::SheenRoughness, look.roughness_is_textured).map_or(1.0, |texel| texel.w);
+    let weight = f64::from(look.sheen.weight) * share;
+    Some(SheenAt {
+        color: look.sheen.color.as_dvec3() * tint * weight,
+        weight,
+        alpha: (f64::from(look.sheen.roughness) * rough).powf(look.roughness_map.exponent().into()).clamp(0.0, 1.0),
+        model: look.model,
+        layering: settings.layering_of(index),
+    })
+}
+
+/// The interpolated normal, and the unit one that shading takes: the normal map's where there is one.
+fn normals(world: &World, hit: &Hit, scale: f64) -> (DVec3, DVec3) {
+    let (normal, tangent) = world.directions(hit);
+    let plain = normal.normalize_or(DVec3::Z);
+    let Some(texel) = world.texel(hit, TextureSlot::Normal) else { return (normal, plain) };
+    let scale = scale.clamp(-1e6, 1e6);
+    let mapped = (2.0 * texel.truncate() - 1.0) * DVec3::new(scale, scale, 1.0);
+    let tangent = tangent.unwrap_or_default();
+    let across = tangent.w * normal.cross(tangent.truncate());
+    let mapped = mapped.x * tangent.truncate() + mapped.y * across + mapped.z * normal;
+    (normal, mapped.try_normalize().unwrap_or(plain))
+}
+
+/// Columns x, y, z: z is the normal, x lies towards the view's projection on the surface; anywhere where there is none.
+fn frame(normal: DVec3, view: DVec3) -> DMat3 {
+    let across = view - normal * normal.dot(view);
+    let x = if across.length_squared() > 1e-24 { across.normalize() } else { normal.any_orthonormal_vector() };
+    // Once more, so that it is perpendicular to the last digit.
+    let x = (x - normal * normal.dot(x)).normalize_or(normal.any_orthonormal_vector());
+    DMat3::from_cols(x, normal.cross(x), normal)
+}

@@ -1,0 +1,81 @@
+//! Textures looked up in `f64`: bilinear in the full image, no mipmaps: pixels that see many texels average them by their samples.
+
+use std::sync::LazyLock;
+
+use glam::{DVec2, DVec4};
+
+use crate::scene::{Filter, Image, Sampler, Wrap, linear_from_srgb};
+
+/// Linear light of the sRGB codes.
+static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as u8).into()));
+
+/// A texture's red, green, blue, alpha at (u, v), filtered as where it is magnified; `is_color` where the first three are sRGB.
+pub(super) fn texel(image: &Image, sampler: Sampler, is_color: bool, uv: DVec2) -> DVec4 {
+    let size = DVec2::new(image.width.into(), image.height.into());
+    let place = uv * size - 0.5;
+    // Further away there are no fractions left; what is not finite is anywhere.
+    let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
+    let place = if sampler.magnify == Filter::Nearest { place.round() } else { place };
+    let (corner, fraction) = (place.floor(), place - place.floor());
+    let sides = [image.width, image.height];
+    let [columns, rows] = [0, 1].map(|axis| {
+        [0, 1].map(|step| wrapped(corner[axis] as i64 + step, i64::from(sides[axis]), sampler.wrap[axis]))
+    });
+    let at = |x: usize, y: usize| decoded(image.texels[y * image.width as usize + x], is_color);
+    let [upper, lower] = rows.map(|y| at(columns[0], y).lerp(at(columns[1], y), fraction.x));
+    upper.lerp(lower, fraction.y)
+}
+
+fn decoded(codes: [u8; 4], is_color: bool) -> DVec4 {
+    let plain = |code: u8| f64::from(code) / 255.0;
+    let color = |code: u8| if is_color { LINEAR[usize::from(code)] } else { plain(code) };
+    let [red, green, blue, alpha] = codes;
+    DVec4::new(color(red), color(green), color(blue), plain(alpha))
+}
+
+/// The texel in [0, side) that stands at any place.
+fn wrapped(at: i64, side: i64, wrap: Wrap) -> usize {
+    let at = match wrap {
+        Wrap::Repeat => at.rem_euclid(side),
+        Wrap::Clamp => at.clamp(0, side - 1),
+        Wrap::Mirror => {
+            let turn = at.rem_euclid(2 * side);
+            turn.min(2 * side - 1 - turn)
+        }
+    };
+    at as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image() -> Image {
+        let texels = vec![[0, 0, 0, 255], [255, 0, 0, 255], [0, 255, 0, 0], [188, 0, 255, 0]];
+        Image { name: String::new(), width: 2, height: 2, texels }
+    }
+
+    #[test]
+    fn centres_are_the_texels_and_between_them_lies_their_mean() {
+        let look = |u: f64, v: f64, is_color: bool| texel(&image(), Sampler::DEFAULT, is_color, DVec2::new(u, v));
+        assert_eq!(look(0.75, 0.25, false), DVec4::new(1.0, 0.0, 0.0, 1.0));
+        assert_eq!(look(0.5, 0.25, false), DVec4::new(0.5, 0.0, 0.0, 1.0));
+        assert_eq!(look(0.25, 0.5, false), DVec4::new(0.0, 0.5, 0.0, 0.5));
+        // sRGB's 188 is half the light (0.5029).
+        assert!((look(0.75, 0.75, true).x - 0.503).abs() < 1e-3);
+        // Repeated: half of the last column, half of the first.
+        assert_eq!(look(1.0, 0.25, false), look(0.0, 0.25, false));
+        assert!(look(f64::NAN, f64::INFINITY, false).is_finite());
+    }
+
+    #[test]
+    fn sampler_flags_count() {
+        let sampler = |wrap, magnify| Sampler { wrap: [wrap; 2], magnify, ..Sampler::DEFAULT };
+        let look = |sampler, u: f64| texel(&image(), sampler, false, DVec2::new(u, 0.25)).x;
+        assert_eq!(look(sampler(Wrap::Clamp, Filter::Linear), 5.0), 1.0);
+        assert_eq!(look(sampler(Wrap::Mirror, Filter::Linear), 1.25), 1.0);
+        assert_eq!(look(sampler(Wrap::Repeat, Filter::Linear), 1.25), 0.0);
+        assert_eq!(look(sampler(Wrap::Repeat, Filter::Nearest), 0.45), 0.0);
+        assert_eq!(look(sampler(Wrap::Repeat, Filter::Nearest), 0.55), 1.0);
+    }
+}

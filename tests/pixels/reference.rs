@@ -1,0 +1,188 @@
+//! The reference renderer against the real-time one, and against what is known of it.
+
+use glam::Vec3;
+use velour::picture::LinearImage;
+use velour::reference::{Effort, Filter, Options, Picture, Reference};
+use velour::scene::{Overrides, Scene, Settings, SheenModel};
+use velour::table::LtcTable;
+
+use super::compare::{SIZE, linear, sheen_alone};
+use super::stage::{Stage, Thing, facing, glow, looking, velvet};
+
+/// What real time computes: direct light that nothing stands in the way of, at the pixels' centres.
+const REAL_TIME: Options =
+    Options { max_bounces: 0, shadows: false, filter: Filter::Centre, specular: velour::reference::SpecularModel::Ltc };
+/// Of a pixel's value, whatever the noise.
+const RELATIVE: f64 = 1e-3;
+/// Of the picture's mean.
+const MEAN: f64 = 5e-3;
+/// Of the picture's greatest value: what f32 leaves where a light's plane or the horizon passes (see `compare`).
+const OF_GREATEST: f64 = 1e-5;
+/// So many pixels may be off: those that noise moves by more than three standard errors, 4 in 1000 with 64 batches, and edges.
+const MOST_OFF: f64 = 0.01;
+
+pub fn traced(scene: &Scene, table: &LtcTable, settings: &Settings, options: Options, samples: u64) -> Picture {
+    let reference = Reference::new(scene, settings, table, options).unwrap();
+    reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
+}
+
+fn mean(picture: &LinearImage) -> f64 {
+    picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum::<f64>() / (3 * picture.pixels.len()) as f64
+}
+
+/// Holds a picture to one of the reference: nearly all pixels within three standard errors or 0.1%, the mean within 0.5%.
+pub fn differences(picture: &LinearImage, reference: &Picture) -> Result<(), String> {
+    let radiance = &reference.radiance;
+    let greatest = radiance.pixels.iter().flatten().fold(0.0_f32, |greatest, &value| greatest.max(value));
+    let pixels = picture.pixels.iter().zip(&radiance.pixels).zip(&reference.errors.pixels);
+    let is_off = |((found, expected), error): &((&[f32; 3], &[f32; 3]), &[f32; 3])| {
+        let [found, expected, error] = [found, expected, error].map(|pixel| Vec3::from(*pixel).as_dvec3());
+        let allowed = (3.0 * error).max(RELATIVE * expected) + OF_GREATEST * f64::from(greatest);
+        !(found - expected).abs().cmple(allowed).all()
+    };
+    let off: Vec<usize> = pixels.enumerate().filter(|(_, pixel)| is_off(pixel)).map(|(index, _)| index).collect();
+    if off.len() as f64 > MOST_OFF * picture.pixels.len() as f64 {
+        let at = off[off.len() / 2];
+        return Err(format!(
+            "{} pixels are off, [{}, {}] among them: {:?}, not {:?} within 3 times {:?}",
+            off.len(),
+            at as u32 % picture.width,
+            at as u32 / picture.width,
+            picture.pixels[at],
+            radiance.pixels[at],
+            reference.errors.pixels[at],
+        ));
+    }
+    let [found, expected] = [picture, radiance].map(mean);
+    if (found - expected).abs() > MEAN * expected {
+        return Err(format!("the mean is {found}, not {expected}"));
+    }
+    Ok(())
+}
+
+/// Holds a picture of real time to the reference's of the same scene.
+pub fn hold(picture: &LinearImage, scene: &Scene, table: &LtcTable, settings: &Settings) {
+    let reference = traced(scene, table, settings, REAL_TIME, 64);
+    differences(picture, &reference).unwrap_or_else(|said| panic!("against the reference: {said}"));
+}
+
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
+const ORIGIN: [f32; 3] = [0.0; 3];
+
+fn stage(alpha: f32) -> Stage {
+    let floor = Thing::rectangle([1.5, 1.5], velvet([0.9, 0.5, 0.2], alpha)).placed(facing(ORIGIN, UP));
+    let window = Thing::rectangle([0.5, 0.3], glow([4.0, 3.0, 2.0])).placed(facing([1.0, 1.2, -1.0], ORIGIN));
+    Stage::new(vec![floor, window], looking([0.4, 1.1, 2.6], ORIGIN))
+}
+
+fn with_model(model: SheenModel) -> Settings {
+    let overrides = Overrides { sheen_model: Some(model), ..Overrides::default() };
+    Settings { overrides, ..sheen_alone() }
+}
+
+#[test]
+fn wrong_pictures_are_rejected() {
+    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let scene = stage(0.4).scene();
+    let reference = traced(&scene, &table, &settings, REAL_TIME, 64);
+    let right = linear(&scene, &table, &settings, SIZE);
+    differences(&right, &reference).unwrap();
+    let changed = |change: &dyn Fn(usize, &mut [f32; 3])| {
+        let mut picture = right.clone();
+        picture.pixels.iter_mut().enumerate().for_each(|(index, pixel)| change(index, pixel));
+        differences(&picture, &reference)
+    };
+    let brighter = |share: f32| changed(&|_, pixel| *pixel = pixel.map(|value| share * value));
+    assert!(brighter(1.006).is_err() && brighter(0.994).is_err());
+    assert!(changed(&|_, pixel| pixel.swap(0, 2)).is_err());
+    assert!(changed(&|_, pixel| *pixel = [0.0; 3]).is_err());
+    assert!(changed(&|index, pixel| pixel[1] = if index % 40 == 0 { f32::NAN } else { pixel[1] }).is_err());
+    let mut shifted = right.clone();
+    shifted.pixels.rotate_right(1);
+    assert!(differences(&shifted, &reference).is_err());
+    let other = linear(&stage(0.42).scene(), &table, &settings, SIZE);
+    assert!(differences(&other, &reference).is_err());
+}
+
+#[test]
+fn a_seed_gives_the_same_picture_on_any_number_of_threads() {
+    let (table, settings) = (LtcTable::embedded(), with_model(SheenModel::Walk));
+    let scene = stage(0.5).scene();
+    let on = |threads: usize, seed: u64| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let reference = Reference::new(&scene, &settings, &table, Options { max_bounces: 2, ..Options::default() });
+            let effort = Effort { samples: 3, seed };
+            reference.unwrap().render(&scene.cameras[0], [50, 30], effort, |_, _| true).unwrap().radiance
+        })
+    };
+    assert_eq!(on(1, 7), on(3, 7));
+    assert_ne!(on(2, 7), on(2, 8));
+}
+
+#[test]
+fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
+    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let scene = stage(0.5).scene();
+    let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
+    let render = |samples: u64, stop_after: u64| {
+        let effort = Effort { samples, seed: 0 };
+        reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap()
+    };
+    let early = render(4096, 1);
+    assert_eq!((early.samples, early.batches), (16, 1));
+    assert_eq!(early.relative_error(), None);
+    let later = render(4096, 4 * 5 + 1);
+    assert!(later.samples > 16 && later.samples < 4096 && later.samples % 16 == 0, "{}", later.samples);
+    // What is there is what fewer samples give.
+    assert_eq!(later.radiance.pixels.len(), 800);
+    let whole = render(100, u64::MAX);
+    assert_eq!((whole.samples, whole.batches), (100, 50));
+}
+
+/// The estimated errors are those that other seeds show.
+#[test]
+fn errors_are_what_they_are_estimated_to_be() {
+    let (table, settings) = (LtcTable::embedded(), with_model(SheenModel::Slab));
+    let scene = stage(0.3).scene();
+    let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
+    let render = |samples: u64, seed: u64| {
+        reference.render(&scene.cameras[0], [24, 16], Effort { samples, seed }, |_, _| true).unwrap()
+    };
+    let truth = render(32_768, 99);
+    let (mut square, mut beyond, mut count) = (0.0, 0, 0);
+    for seed in 0..8 {
+        let picture = render(128, seed);
+        for ((found, expected), error) in
+            picture.radiance.pixels.iter().zip(&truth.radiance.pixels).zip(&picture.errors.pixels)
+        {
+            if error[0] > 1e-4 * expected[0] && expected[0] > 0.0 {
+                let deviation = f64::from((found[0] - expected[0]) / error[0]);
+                square += deviation * deviation;
+                beyond += usize::from(deviation.abs() > 3.0);
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 1000, "{count} pixels have an error");
+    // Of Student's t with 31 degrees of freedom the variance is 1.07, and 0.5% lie beyond 3.
+    let variance = square / f64::from(count as u32);
+    assert!((0.85..1.3).contains(&variance), "deviations have the variance {variance}");
+    assert!((beyond as f64) < 0.02 * count as f64, "{beyond} of {count} lie beyond three standard errors");
+}
+
+/// Light from a window past a screen with an edge: shadows are where straight lines say.
+#[test]
+fn shadows_are_where_straight_lines_say() {
+    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let options = Options { shadows: true, ..REAL_TIME };
+    let mut stage = stage(0.5);
+    // Wholly below the window and wholly off its way.
+    let plate = |place, half| Thing::rectangle([half; 2], velvet([0.0; 3], 0.5)).placed(facing(place, [1.0, 1.2, -1.0]));
+    let open = traced(&stage.scene(), &table, &settings, options, 64);
+    stage.things.push(plate([0.9, 1.08, -0.9], 0.7));
+    let covered = traced(&stage.scene(), &table, &settings, options, 64);
+    let bare = linear(&self::stage(0.5).scene(), &table, &settings, SIZE);
+    differences(&bare, &open).unwrap();
+    assert!(mean(&covered.radiance) < 0.02 * mean(&open.radiance));
+}
