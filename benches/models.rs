@@ -6,7 +6,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::hint::black_box;
 use velour::math::warp::{cosine_hemisphere, uniform};
-use velour::models::{Bsdf, LtcSheen, SlabSheen};
+use velour::models::{Bsdf, Burley, ContyKulla, LtcSheen, NeubeltPettineo, Patry, SlabSheen, Terminator};
 use velour::table::{LtcTable, SlabTable};
 
 /// Different calls in turn, so that no branch is learnt by heart.
@@ -37,8 +37,16 @@ fn models(c: &mut Criterion) {
     let (ltc, slab) = (LtcTable::embedded(), SlabTable::embedded());
     calls(c, "ltc", &LtcSheen::new(&ltc, 0.3));
     calls(c, "slab", &SlabSheen::new(&slab, 0.3));
+    calls(c, "burley", &Burley::new());
+    calls(c, "neubelt_pettineo", &NeubeltPettineo::new(0.3));
+    calls(c, "conty_kulla", &ContyKulla::new(0.3, Terminator::Physical));
+    calls(c, "patry", &Patry::new(0.3));
     c.bench_function("ltc new", |b| b.iter(|| LtcSheen::new(&ltc, black_box(0.3))));
     c.bench_function("slab new", |b| b.iter(|| SlabSheen::new(&slab, black_box(0.3))));
+    c.bench_function("burley new", |b| b.iter(Burley::new));
+    c.bench_function("neubelt_pettineo new", |b| b.iter(|| NeubeltPettineo::new(black_box(0.3))));
+    c.bench_function("conty_kulla new", |b| b.iter(|| ContyKulla::new(black_box(0.3), Terminator::Physical)));
+    c.bench_function("patry new", |b| b.iter(|| Patry::new(black_box(0.3))));
 }
 
 criterion_group!(benches, models);

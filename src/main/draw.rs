@@ -28,12 +28,13 @@ pub fn render(arguments: &Render) -> Result<(), Failure> {
     let mut timing = Timing::default();
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
     inputs.check_real_time()?;
-    let gpu = match timing.measure("device", || pollster::block_on(device::open_offscreen(arguments.adapter.as_deref()))) {
-        Err(DeviceError::NoAdapter) if arguments.adapter.is_none() => {
-            return reference::in_place_of_a_device(arguments, &inputs, timing);
-        }
-        gpu => gpu.map_err(Failure::device)?,
-    };
+    let gpu =
+        match timing.measure("device", || pollster::block_on(device::open_offscreen(arguments.adapter.as_deref()))) {
+            Err(DeviceError::NoAdapter) if arguments.adapter.is_none() => {
+                return reference::in_place_of_a_device(arguments, &inputs, timing);
+            }
+            gpu => gpu.map_err(Failure::device)?,
+        };
     let bytes = draw(&gpu, arguments, &inputs, &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.picture.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();

@@ -117,4 +117,3 @@ fn camera(scene: &Scene, wanted: Option<&str>) -> Result<usize, Failure> {
         Failure::input(format!("--camera {wanted}: the scene has no such camera; it has {}", names.join(", ")))
     })
 }
-

@@ -156,8 +156,7 @@ pub fn in_place_of_a_device(arguments: &Render, inputs: &Inputs, mut timing: Tim
 }
 
 #[cfg(feature = "gpu")]
-const NO_DEVICE: &str =
-    "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
+const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
 
 /// The same of a scene as it is.
 #[cfg(feature = "viewer")]

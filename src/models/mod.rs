@@ -9,6 +9,15 @@
 //! | [`Ggx`] | the specular base itself: GGX microfacets, multiple reflection made up for | weights to its albedo over R |
 //! | [`Lambert`] | the diffuse base | |
 //!
+//! Sheens of prior work, to compare with, each by its paper's formula; sampled from a table that takes some milliseconds to make.
+//!
+//! | model | what it is | at its price |
+//! |---|---|---|
+//! | [`Burley`] | Schlick's weight at the difference angle (Disney 2012) | no roughness; reciprocal |
+//! | [`NeubeltPettineo`] | inverted Gaussian of half vectors (The Order: 1886, 2013) | reciprocal; a ground that shines at all angles |
+//! | [`ContyKulla`] | power of the half vector's sine, shadowing fitted (Imageworks 2017) | reciprocal with [`Terminator::Physical`]; creates light where alpha is small |
+//! | [`Patry`] | single scattering of SGGX fibres (Ghost of Tsushima 2020) | not reciprocal |
+//!
 //! Sheens have no colour: `C_sheen` multiplies what they give. The specular base is made for each colour channel. Models stand in a frame whose z is the normal, with `wi` and `wo`
 //! anywhere on the sphere: below the horizon there is nothing. One is made for each roughness, and shared by any number of threads.
 //!
@@ -43,16 +52,27 @@
 //! assert!(below.min_element() > 0.0);
 //! ```
 
+mod burley;
+mod conty_kulla;
+mod directions;
 mod elevations;
 mod ggx;
+mod half_vector;
 mod lambert;
 mod ltc_sheen;
+mod neubelt_pettineo;
+mod patry;
 mod sheen_walk;
 mod slab_sheen;
 
+pub use burley::Burley;
+pub use conty_kulla::{ContyKulla, Terminator};
+pub use directions::LEAST_ALPHA;
 pub use ggx::{Ggx, LtcGgx, Schlick};
 pub use lambert::Lambert;
 pub use ltc_sheen::LtcSheen;
+pub use neubelt_pettineo::NeubeltPettineo;
+pub use patry::Patry;
 pub use sheen_walk::{Flight, Layer, SheenWalk};
 pub use slab_sheen::{EMPTY_BELOW_ALPHA, SlabSheen};
 
@@ -73,7 +93,8 @@ pub trait Bsdf {
     /// Density per steradian with which [`Self::sample`] finds `wo`; 0 where `wi` or `wo` is below the horizon, or `wo` on it.
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64;
 
-    /// The share in \[0, 1\] of light of cosine `mu` in \[0, 1\] that is scattered: the integral of [`Self::evaluate`] over `wo`.
+    /// The share of light of cosine `mu` in \[0, 1\] that is scattered: the integral of [`Self::evaluate`] over `wo`. In \[0, 1\], but for
+    /// [`ContyKulla`], which creates light.
     fn albedo(&self, mu: f64) -> f64;
 }
 

@@ -65,7 +65,13 @@ impl Layer for SheenWalk {
     fn flight(&self, depth: f64, along: DVec3, rng: &mut impl Rng) -> Flight {
         let next = match &self.slab {
             Some(slab) => depth - along.z * exponential(rng) / slab.medium().extinction(along.z.clamp(-1.0, 1.0)),
-            None => if along.z > 0.0 { -1.0 } else { 2.0 },
+            None => {
+                if along.z > 0.0 {
+                    -1.0
+                } else {
+                    2.0
+                }
+            }
         };
         // A broken number leaves too.
         if next > 0.0 && next < 1.0 {

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::panel::{color_button, slider};
 use super::state::{Change, State};
-use crate::scene::{Layering, Overrides, RoughnessMap, Sheen, SheenModel};
+use crate::scene::{Layering, Overrides, RoughnessMap, Sheen};
 
 /// Share of the base that is left when layering is first made manual.
 const MANUAL: f32 = 0.5;
@@ -83,8 +83,7 @@ fn overrides(ui: &mut Ui, state: &mut State) -> Change {
             slider(ui, egui::Slider::new(share, 0.0..=1.0).fixed_decimals(2));
         });
     }
-    let SheenModel::Ltc = before.sheen_model.unwrap_or_default();
-    ui.label("sheen model: ltc");
+    ui.label(format!("sheen model: {}", before.sheen_model.unwrap_or_default().name()));
     let mut changed = Overrides::default();
     if map != before.roughness_map.unwrap_or_default() {
         changed.roughness_map = Some(map);

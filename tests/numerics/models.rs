@@ -1,19 +1,18 @@
 //! The models: that they sample what they say, keep energy, and are the slab.
 
 use crate::direction;
-use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
-use glam::DVec3;
+use crate::lobes::{AZIMUTH, Bins, assert_calls_are_checked, message};
+use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use velour::fit::hemisphere::Hemisphere;
-use velour::math::quadrature::gauss_legendre;
 use velour::math::warp::uniform;
 use velour::models::{Bsdf, LtcSheen, Sample, SlabSheen};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
-use velour::table::{LtcTable, SlabTable, SlabWarp};
+use velour::table::{LtcTable, SlabTable};
 
 /// (alpha, mu): fuzz to dust, grazing to steep.
 const CELLS: [(f64, f64); 10] = [
@@ -29,9 +28,6 @@ const CELLS: [(f64, f64); 10] = [
     (1.0, 0.05),
 ];
 
-/// `wi` of a cell stands across the axes.
-const AZIMUTH: f64 = 2.2;
-
 fn ltc(alpha: f64) -> LtcSheen {
     LtcSheen::new(&LtcTable::embedded(), alpha)
 }
@@ -44,66 +40,11 @@ fn both(alpha: f64) -> [(&'static str, Box<dyn Bsdf>); 2] {
     [("ltc", Box::new(ltc(alpha))), ("slab", Box::new(slab(alpha)))]
 }
 
-/// Bins of directions: elevations along the slab table's axis, azimuths around the whole circle.
-struct Bins {
-    warp: SlabWarp,
-}
-
-impl Bins {
-    const ELEVATIONS: usize = 31;
-    const AZIMUTHS: usize = 16;
-
-    fn index(&self, wo: DVec3) -> usize {
-        let place = self.warp.place(wo.z.min(1.0));
-        let phi = (wo.y.atan2(wo.x) - AZIMUTH).rem_euclid(TAU) / TAU;
-        let bin = |x: f64, bins: usize| ((x * bins as f64) as usize).min(bins - 1);
-        bin(place, Self::ELEVATIONS) * Self::AZIMUTHS + bin(phi, Self::AZIMUTHS)
-    }
-
-    /// The integral of a function of directions over each bin: halves of it, towards the horizon thinner parts, times Gauss nodes.
-    fn integrals(&self, value: impl Fn(DVec3) -> f64) -> Vec<f64> {
-        let mut integrals = vec![0.0; Self::ELEVATIONS * Self::AZIMUTHS];
-        for elevation in 0..Self::ELEVATIONS {
-            let parts: Vec<f64> = match elevation {
-                0 => [0.0].into_iter().chain((0..12).rev().map(|k| 0.25_f64.powi(k))).collect(),
-                _ => vec![0.0, 0.5, 1.0],
-            };
-            let root = |part: f64| SlabWarp::root_from_place((elevation as f64 + part) / Self::ELEVATIONS as f64);
-            for edges in parts.windows(2) {
-                for (root, weight) in gauss_legendre(4, root(edges[0]), root(edges[1])) {
-                    let mu = self.warp.mu(root);
-                    for azimuth in 0..Self::AZIMUTHS {
-                        let width = TAU / Self::AZIMUTHS as f64;
-                        for (phi, phi_weight) in gauss_legendre(6, azimuth as f64 * width, (azimuth + 1) as f64 * width)
-                        {
-                            integrals[elevation * Self::AZIMUTHS + azimuth] +=
-                                weight * phi_weight / self.warp.root_slope(mu) * value(direction(mu, AZIMUTH + phi));
-                        }
-                    }
-                }
-            }
-        }
-        integrals
-    }
-}
-
-fn probability(sampled: &dyn Bsdf, said: &dyn Bsdf, alpha: f64, mu: f64) -> f64 {
-    let (bins, wi) = (Bins { warp: SlabWarp::new(alpha) }, direction(mu, AZIMUTH));
-    let mut rng = Pcg64::seed_from_u64(31);
-    let mut counts = vec![0; Bins::ELEVATIONS * Bins::AZIMUTHS];
-    for _ in 0..200_000 {
-        let sample = sampled.sample(wi, [(); 2].map(|()| uniform(&mut rng))).expect("a lobe");
-        counts[bins.index(sample.wo)] += 1;
-    }
-    // The quadrature's error: a tenth of the noise.
-    chi_square(&counts, &bins.integrals(|wo| said.pdf(wi, wo)), 2e-4)
-}
-
 #[test]
 fn samples_have_the_density_that_is_said() {
     CELLS.into_par_iter().for_each(|(alpha, mu)| {
         for (name, model) in both(alpha) {
-            let p = probability(model.as_ref(), model.as_ref(), alpha, mu);
+            let p = Bins::of_slab(alpha).probability(model.as_ref(), model.as_ref(), mu);
             assert!(p > SIGNIFICANCE, "{name}, alpha {alpha}, mu {mu}: p = {p:.1e}");
         }
     });
@@ -112,18 +53,18 @@ fn samples_have_the_density_that_is_said() {
 #[test]
 fn another_density_is_told() {
     for ((_, model), (name, other)) in both(0.3).into_iter().zip(both(0.33)) {
-        let p = probability(model.as_ref(), other.as_ref(), 0.3, 0.2);
+        let p = Bins::of_slab(0.3).probability(model.as_ref(), other.as_ref(), 0.2);
         assert!(p < REJECTED, "{name}: 0.3 is taken for 0.33: p = {p:.1e}");
     }
     let [(_, one), (_, other)] = both(0.3);
-    assert!(probability(one.as_ref(), other.as_ref(), 0.3, 0.2) < REJECTED);
+    assert!(Bins::of_slab(0.3).probability(one.as_ref(), other.as_ref(), 0.2) < REJECTED);
 }
 
 #[test]
 fn the_density_integrates_to_one_and_the_lobe_to_its_albedo() {
     let cells = CELLS.into_iter().chain([(0.02, 0.01), (0.012, 2e-3), (0.09, 0.0), (0.45, 1e-5), (0.8, 1.0)]);
     cells.collect::<Vec<_>>().into_par_iter().for_each(|(alpha, mu)| {
-        let (bins, wi) = (Bins { warp: SlabWarp::new(alpha) }, direction(mu, AZIMUTH));
+        let (bins, wi) = (Bins::of_slab(alpha), direction(mu, AZIMUTH));
         for (name, model) in both(alpha) {
             let pdf: f64 = bins.integrals(|wo| model.pdf(wi, wo)).iter().sum();
             assert!((pdf - 1.0).abs() < 1e-4, "{name}, alpha {alpha}, mu {mu}: {pdf}");
@@ -323,10 +264,6 @@ fn values_are_finite_and_not_negative_everywhere() {
 
 #[test]
 fn mistakes_of_the_caller_are_told() {
-    let message = |wrong: &(dyn Fn() + std::panic::RefUnwindSafe)| {
-        let caught = std::panic::catch_unwind(wrong).expect_err("a mistake");
-        caught.downcast_ref::<String>().expect("a message").clone()
-    };
     for alpha in [-0.1, 1.1, f64::NAN] {
         assert!(message(&|| drop(slab(alpha))).contains("alpha is in [0, 1]"));
         assert!(message(&|| drop(ltc(alpha))).contains("alpha is in [0, 1]"));
@@ -334,17 +271,7 @@ fn mistakes_of_the_caller_are_told() {
     let (slab, ltc) = (slab(0.3), ltc(0.3));
     let models: [&(dyn Bsdf + std::panic::RefUnwindSafe); 2] = [&slab, &ltc];
     let up = direction(0.5, 0.0);
-    for model in models {
-        for wrong in [DVec3::NAN, DVec3::ZERO, up * 1.01, DVec3::new(f64::INFINITY, 0.0, 0.5)] {
-            assert!(message(&|| _ = model.evaluate(wrong, up)).contains("a direction is unit"));
-            assert!(message(&|| _ = model.pdf(up, wrong)).contains("a direction is unit"));
-            assert!(message(&|| _ = model.sample(wrong, [0.5; 2])).contains("a direction is unit"));
-        }
-        for wrong in [[1.0, 0.5], [0.5, -0.1], [f64::NAN, 0.5]] {
-            assert!(message(&|| _ = model.sample(up, wrong)).contains("uniform numbers are in [0, 1)"));
-        }
-        assert!(message(&|| _ = model.albedo(1.5)).contains("mu is in [0, 1]"));
-    }
+    models.into_iter().for_each(assert_calls_are_checked);
     // Directions of f32 are unit enough.
     let rough = up.as_vec3().as_dvec3();
     assert!(models.iter().all(|model| model.evaluate(rough, rough) > 0.0));

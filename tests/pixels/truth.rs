@@ -163,7 +163,7 @@ impl<'a> Look<'a> {
             Layering::Gltf | Layering::Reciprocal => 1.0 - color.max_element() * r,
             Layering::OpenPbr => 1.0 - look.map_or(0.0, |look| f64::from(look.sheen.weight)) * r,
             Layering::Manual(share) if look.is_some() => share.into(),
-            Layering::Manual(_) | Layering::None => 1.0,
+            Layering::Manual(_) | Layering::None | Layering::Walk => 1.0,
         };
         Self {
             table: truth.table,

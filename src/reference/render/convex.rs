@@ -129,8 +129,7 @@ fn between_chains(vertices: &[DVec3]) -> Vec<Sector> {
         let (next_out, next_in) = (outer[out + 1], inner[into + 1]);
         let outer_first = azimuths[next_out] <= azimuths[next_in];
         let to = vertices[if outer_first { next_out } else { next_in }].truncate();
-        let mut sector =
-            Sector { from, to, outer: normal(&outer, out), inner: Some(normal(&inner, into)), area: 0.0 };
+        let mut sector = Sector { from, to, outer: normal(&outer, out), inner: Some(normal(&inner, into)), area: 0.0 };
         sector.area = sector.area_to(1.0);
         sectors.push(sector);
         from = to;
@@ -181,7 +180,11 @@ impl Sector {
             if excess.abs() <= TOLERANCE * self.area {
                 break;
             }
-            if excess > 0.0 { high = share } else { low = share }
+            if excess > 0.0 {
+                high = share
+            } else {
+                low = share
+            }
             let azimuth = self.azimuth(share);
             let [outer, inner] = self.heights(azimuth);
             let slope = 0.5 * (inner - outer) * turn / azimuth.length_squared();
@@ -250,9 +253,8 @@ mod tests {
         let mut rng = Pcg64::seed_from_u64(1);
         for vertices in polygons() {
             let convex = Convex::new(&vertices);
-            let samples: Vec<DVec3> = (0..SAMPLES)
-                .map(|_| convex.sample([rng.random(), rng.random()]).expect("it has an area"))
-                .collect();
+            let samples: Vec<DVec3> =
+                (0..SAMPLES).map(|_| convex.sample([rng.random(), rng.random()]).expect("it has an area")).collect();
             let outside = |wo: &&DVec3| {
                 let sides = || edges(&vertices).map(|(p, q)| p.cross(q).normalize().dot(**wo));
                 !(sides().all(|side| side > -1e-9) || sides().all(|side| side < 1e-9))
@@ -261,7 +263,8 @@ mod tests {
             let whole = form_factor(std::slice::from_ref(&vertices), DMat3::IDENTITY, true);
             for _ in 0..12 {
                 let through = samples[rng.random_range(0..samples.len())];
-                let turned = DVec3::new(rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5);
+                let turned =
+                    DVec3::new(rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5);
                 let plane = through.cross(turned).normalize();
                 let part = form_factor(&[clip(&vertices, plane)], DMat3::IDENTITY, true) / whole;
                 let found = samples.iter().filter(|wo| plane.dot(**wo) > 0.0).count() as f64 / f64::from(SAMPLES);

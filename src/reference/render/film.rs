@@ -68,7 +68,8 @@ impl Picture {
     /// The mean standard error of the pixels' luminance over their mean luminance: 0.01 is one percent of noise. None where it is
     /// not known, or all is black.
     pub fn relative_error(&self) -> Option<f64> {
-        let sum = |image: &LinearImage| image.pixels.iter().map(|pixel| luminance(pixel.map(f64::from).into())).sum::<f64>();
+        let sum =
+            |image: &LinearImage| image.pixels.iter().map(|pixel| luminance(pixel.map(f64::from).into())).sum::<f64>();
         let (errors, radiance) = (sum(&self.errors), sum(&self.radiance));
         (errors.is_finite() && radiance > 0.0).then(|| errors / radiance)
     }

@@ -3,9 +3,9 @@
 use earcut::Earcut;
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::reference::bvh::Ray;
 use super::convex::{Convex, clip, cosine_share, edges};
 use super::luminance;
+use crate::reference::bvh::Ray;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
 use crate::table::SpecularLtc;
 
@@ -64,7 +64,8 @@ impl<'a> Lights<'a> {
             if height.abs() <= IN_PLANE * size || (height < 0.0 && !part.two_sided) {
                 return None;
             }
-            let outline: Vec<DVec3> = part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
+            let outline: Vec<DVec3> =
+                part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
             let mut outline = clip(&outline, DVec3::Z);
             if up != DVec3::Z {
                 outline = clip(&outline, up);

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::SpecularModel;
 use super::models::Models;
 use super::surface::{SheenAt, Surface};
-use super::SpecularModel;
 use crate::math::sine;
 use crate::models::{Bsdf, Ggx, Schlick};
 use crate::scene::{Layering, Lobes as Wanted, SheenModel};
@@ -150,7 +150,8 @@ impl<'a> Lobes<'a> {
 
     /// What the reciprocal rule leaves of the base for light of this cosine.
     fn left(&self, mu: f64) -> f64 {
-        let rule = |(albedo, strongest, left): (SheenAlbedo, f64, f64)| left.min(1.0 - strongest * albedo.at(mu)).max(0.0);
+        let rule =
+            |(albedo, strongest, left): (SheenAlbedo, f64, f64)| left.min(1.0 - strongest * albedo.at(mu)).max(0.0);
         self.reciprocal.map_or(1.0, rule)
     }
 

@@ -48,7 +48,9 @@ const TILE: usize = 256;
 /// A reference picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
-    #[error("the scene's instances have {triangles} triangles in all, past the {most} that the reference holds: draw fewer instances")]
+    #[error(
+        "the scene's instances have {triangles} triangles in all, past the {most} that the reference holds: draw fewer instances"
+    )]
     Triangles { triangles: usize, most: usize },
     #[error("a picture of {}x{} pixels is past what the reference holds: use at most {most} pixels", size[0], size[1])]
     Size { size: [u32; 2], most: u64 },
@@ -163,7 +165,8 @@ impl<'a> Reference<'a> {
             let tile = |tile: u64| {
                 let is_needed = index == 0 || !stopped.load(Ordering::Relaxed);
                 let range = tile * TILE as u64..pixels.min((tile + 1) * TILE as u64);
-                let means = if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Vec::new() };
+                let means =
+                    if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Vec::new() };
                 if !go_on(done.fetch_add(1, Ordering::Relaxed) + 1, batches * tiles) {
                     stopped.store(true, Ordering::Relaxed);
                 }

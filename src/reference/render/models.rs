@@ -2,11 +2,11 @@
 
 use std::sync::OnceLock;
 
+use super::SpecularModel;
 use super::lobes::SpecularAt;
 use super::surface::SheenAt;
-use super::SpecularModel;
 use crate::models::{
-    Bsdf, Ggx, LtcSheen, Schlick, SheenWalk, SlabSheen,
+    Bsdf, Burley, ContyKulla, Ggx, LtcSheen, NeubeltPettineo, Patry, Schlick, SheenWalk, SlabSheen, Terminator,
 };
 use crate::scene::{Material, Scene, Settings, SheenModel, TextureSlot};
 use crate::table::{GgxLobe, GgxTable, LtcTable, SlabTable};
@@ -74,7 +74,10 @@ impl Models {
                 SheenModel::Slab | SheenModel::Walk => {
                     Box::new(SlabSheen::new(self.slab_table.get_or_init(SlabTable::embedded), alpha))
                 }
-                _ => Box::new(LtcSheen::new(&self.sheen_table, alpha)),
+                SheenModel::Burley => Box::new(Burley::new()),
+                SheenModel::ContyKulla => Box::new(ContyKulla::new(alpha, Terminator::Physical)),
+                SheenModel::NeubeltPettineo => Box::new(NeubeltPettineo::new(alpha)),
+                SheenModel::Patry => Box::new(Patry::new(alpha)),
             }
         };
         &**self.materials[material].sheen.get(at.alpha, make)

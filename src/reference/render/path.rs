@@ -6,7 +6,6 @@
 use glam::{DVec3, Vec3};
 
 use super::Options;
-use crate::reference::bvh::Ray;
 use super::chooser::Chooser;
 use super::lights::{Lights, Lit, arriving, shadow_ray};
 use super::lobes::Lobes;
@@ -15,6 +14,7 @@ use super::stack::{Stack, is_walked};
 use super::surface::Surface;
 use super::uniforms::Uniforms;
 use super::world::World;
+use crate::reference::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
 use crate::table::SpecularLtc;
 

@@ -18,9 +18,8 @@ pub(super) fn texel(image: &Image, sampler: Sampler, is_color: bool, uv: DVec2) 
     let place = if sampler.magnify == Filter::Nearest { place.round() } else { place };
     let (corner, fraction) = (place.floor(), place - place.floor());
     let sides = [image.width, image.height];
-    let [columns, rows] = [0, 1].map(|axis| {
-        [0, 1].map(|step| wrapped(corner[axis] as i64 + step, i64::from(sides[axis]), sampler.wrap[axis]))
-    });
+    let [columns, rows] = [0, 1]
+        .map(|axis| [0, 1].map(|step| wrapped(corner[axis] as i64 + step, i64::from(sides[axis]), sampler.wrap[axis])));
     let at = |x: usize, y: usize| decoded(image.texels[y * image.width as usize + x], is_color);
     let [upper, lower] = rows.map(|y| at(columns[0], y).lerp(at(columns[1], y), fraction.x));
     upper.lerp(lower, fraction.y)

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
-use crate::reference::bvh::{Bvh, Meeting, Ray};
+use super::ReferenceError;
 use super::texels::texel;
 use super::triangle::Triangle;
-use super::ReferenceError;
+use crate::reference::bvh::{Bvh, Meeting, Ray};
 use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
 
 /// Most triangles of all instances together: some 120 bytes each.
@@ -228,7 +228,8 @@ impl<'a> World<'a> {
         let triangle = &self.bvh.primitives()[hit.triangle];
         let (mesh, place) = (self.mesh_of(triangle), &self.places[triangle.instance as usize]);
         let corners = self.corners(triangle);
-        let normal = self.corner_normals(triangle).into_iter().zip(hit.weights).map(|(normal, weight)| weight * normal).sum();
+        let normal =
+            self.corner_normals(triangle).into_iter().zip(hit.weights).map(|(normal, weight)| weight * normal).sum();
         let tangent = (!mesh.tangents.is_empty()).then(|| {
             let one = |corner: u32| {
                 let tangent = mesh.tangents[corner as usize].as_dvec4();
