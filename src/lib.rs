@@ -15,7 +15,7 @@
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
-//! | `picture` | a linear image; .png and .exr out, tone curves | `gpu` or `cli` |
+//! | `picture` | a linear image; .png and .exr in and out, tone curves; how two pictures differ, FLIP with `cli` | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors as pictures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |

@@ -2,6 +2,8 @@
 
 #[path = "main/args.rs"]
 mod args;
+#[path = "main/compare.rs"]
+mod compare;
 #[cfg(feature = "gpu")]
 #[path = "main/draw.rs"]
 mod draw;
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Some(Command::Info) => draw::info(),
         Some(Command::Fit(fit)) => fit::fit(&fit),
+        Some(Command::Compare(compare)) => compare::compare(&compare),
         Some(Command::Figures(figures)) => figures::figures(&figures),
     };
     match done {

@@ -35,6 +35,19 @@ pub enum Command {
     Reference(Reference),
     /// Makes the tables from nothing and prints their errors
     Fit(Fit),
+    /// Compares picture A with the reference B: FLIP, relative mean absolute error, bias, largest error
+    ///
+    /// Two .exr are compared in linear radiance, two .png in shown values from 0 to 1, alpha left out; up to 16384 pixels a side
+    /// and 33554432 in all. The relative mean absolute error is mean |A - B| / mean |B|, over pixels and channels; the mean error
+    /// is mean (A - B).
+    ///
+    /// FLIP is the mean over the picture, in [0,1], at 67 pixels a degree, of values rounded to 8 bits. For .exr it is HDR-FLIP: each
+    /// pixel's greatest over exposures a stop apart or less (2 to 32 of them; past 32 stops farther apart), from that which shows B's
+    /// greatest luminance at 0.85 to that which does so with the median of its luminances above 0, through the ACES tone curve
+    /// published with it.
+    ///
+    /// Pixels that are infinite or not a number are bad input.
+    Compare(Compare),
     /// Draws the table, its lobes and its errors, as .svg
     Figures(Figures),
     /// Prints adapters, limits, versions and table checksums
@@ -79,6 +92,28 @@ pub enum Table {
 }
 
 #[derive(Args)]
+pub struct Compare {
+    /// The picture: .exr (linear radiance) or .png (as shown, 8 or 16 bits a channel)
+    pub a: PathBuf,
+    /// The reference, of the same kind and size
+    pub b: PathBuf,
+    /// Writes FLIP of each pixel as colours: black is 0, pale yellow 1 [default: none is written]
+    #[arg(long, value_name = "OUT.png")]
+    pub heatmap: Option<PathBuf>,
+    /// Ends with exit code 1 where FLIP is above this, a finite number from 0 up [default: no limit]
+    #[arg(long, value_name = "FLIP", value_parser = limit, allow_negative_numbers = true)]
+    pub fail_above: Option<f64>,
+    /// Prints figures for machines on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    let limit = text.parse().ok().filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
+    limit.ok_or_else(|| "give a finite number from 0 up, say 0.05".to_owned())
+}
+
+#[derive(Args)]
 pub struct Figures {
     /// Folder for the pictures; made if it is not there
     #[arg(short, long, default_value = "figures", value_name = "DIR")]
@@ -93,5 +128,13 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn limits_are_finite_and_not_negative() {
+        assert_eq!(["0", "0.05", "2", "1e-9"].map(limit), [0.0, 0.05, 2.0, 1e-9].map(Ok));
+        for text in ["", "-0.1", "nan", "inf", "1e999", "5%", "0,05"] {
+            assert!(limit(text).is_err(), "{text}");
+        }
     }
 }

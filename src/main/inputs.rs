@@ -64,12 +64,14 @@ impl Inputs {
     pub fn check_real_time(&self) -> Result<(), Failure> {
         let own = self.settings.material_overrides.values();
         for overrides in own.chain([&self.settings.overrides]) {
-            let instead = "is not drawn in real time: use `velour reference`";
             if let Some(model) = overrides.sheen_model.filter(|model| !model.is_real_time()) {
-                return Err(Failure::input(format!("sheen model {} {instead}", model.name())));
+                let name = model.name();
+                return Err(Failure::input(format!(
+                    "--sheen-model {name} takes a path tracer: use `velour reference`"
+                )));
             }
             if overrides.layering == Some(Layering::Walk) {
-                return Err(Failure::input(format!("layering walk {instead}")));
+                return Err(Failure::input("--layering walk takes a path tracer: use `velour reference`"));
             }
         }
         Ok(())

@@ -1,9 +1,18 @@
-//! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB.
+//! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB. And how two
+//! pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
 
+mod difference;
 mod file;
+#[cfg(feature = "cli")]
+mod flip;
+mod read;
 mod tone;
 
+pub use difference::{Differences, LargestDifference};
 pub use file::{Format, WriteError, check_writable, write_atomically};
+#[cfg(feature = "cli")]
+pub use flip::{Exposures, FlipMap};
+pub use read::{MAX_PIXELS, MAX_SIDE, Picture, ReadError};
 pub use tone::{ToneCurve, srgb_from_linear};
 
 use std::io::Cursor;

@@ -4,6 +4,7 @@ mod bad_input;
 mod base;
 mod command;
 mod compare;
+mod comparison;
 mod golden;
 mod lights;
 mod radiance;

@@ -155,6 +155,11 @@ impl<'a> Lobes<'a> {
         self.reciprocal.map_or(1.0, rule)
     }
 
+    /// Whether all of them are transformed cosines.
+    pub fn are_cosines(&self) -> bool {
+        self.lobes.iter().all(|lobe| matches!(lobe.shape, Shape::Ltc))
+    }
+
     /// f_r times the cosine of `wo`, which is unit and above the horizon.
     pub fn evaluate(&self, wo: DVec3) -> DVec3 {
         let left = self.left(wo.z.min(1.0));

@@ -1,7 +1,8 @@
 //! Radiance along a ray: direct light, and what comes by way of other surfaces.
 //!
-//! At each point one direction is sampled on the lights and, in a share of the samples, one in the lobes; both are weighed by the
-//! balance heuristic (Veach and Guibas 1995).
+//! At each point one direction is sampled on the lights and one in the lobes; both are weighed by the balance heuristic (Veach and
+//! Guibas 1995), the latter's density taken for less. Where all lobes are transformed cosines, those on the lights have the density of
+//! what they are to find, and do alone.
 
 use glam::{DVec3, Vec3};
 
@@ -18,8 +19,9 @@ use crate::reference::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
 use crate::table::SpecularLtc;
 
-/// In how many of the samples light is looked for in the lobes: the lights find nearly all of it, these what they find too rarely.
-const LOBES_SHARE: f64 = 0.25;
+/// What a direction found in the lobes weighs against one found on the lights, which find nearly all: lobes find what these find too
+/// rarely, and of large lights would bring noise of their own.
+const LOBES_WEIGHT: f64 = 0.25;
 /// What lies behind blended surfaces that leave less of it is not looked at.
 const LEAST_SEEN: f64 = 1e-4;
 /// Blended surfaces, and holes, that a path goes through at most.
@@ -157,8 +159,9 @@ impl Light<'_> {
         if lobes.lobes.is_empty() {
             return (sum, None);
         }
+        let lobe_counts = !lobes.are_cosines();
         if let Some(lit) = chooser.sample(first[0], [first[1], first[2]]) {
-            let density = chooser.pdf(&lit) + LOBES_SHARE * lobes.pdf(lit.wo);
+            let density = chooser.pdf(&lit) + if lobe_counts { LOBES_WEIGHT * lobes.pdf(lit.wo) } else { 0.0 };
             let value = lobes.evaluate(lit.wo) * lit.radiance / density;
             sum += value * self.visible(surface, &lit, rays);
         }
@@ -167,7 +170,6 @@ impl Light<'_> {
                 sum += lobes.evaluate(wo) * irradiance;
             }
         }
-        let lobe_counts = first[3] < LOBES_SHARE;
         let has_ambient = self.settings.ambient != Vec3::ZERO;
         if has_ambient && !self.options.shadows {
             sum += self.settings.ambient.as_dvec3() * surface.occlusion * lobes.albedo();
@@ -182,8 +184,8 @@ impl Light<'_> {
         }
         if lobe_counts {
             for lit in chooser.along(wo) {
-                let density = chooser.pdf(&lit) + LOBES_SHARE * pdf;
-                sum += value * lit.radiance / density * self.visible(surface, &lit, rays);
+                let density = chooser.pdf(&lit) + LOBES_WEIGHT * pdf;
+                sum += LOBES_WEIGHT * value * lit.radiance / density * self.visible(surface, &lit, rays);
             }
         }
         let weight = value / pdf;

@@ -1,0 +1,109 @@
+//! `velour compare`: how far a picture is from a reference.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::json;
+use velour::picture::{Differences, FlipMap, Format, Picture, check_writable, write_atomically};
+
+use crate::args::Compare;
+use crate::output::with_progress;
+use crate::{Failure, say};
+
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// Both pictures are read and compared before anything is written; a picture that falls short is told of with its figures.
+pub fn compare(arguments: &Compare) -> Result<(), Failure> {
+    let heatmap = arguments.heatmap.as_deref();
+    heatmap.map_or(Ok(()), |path| check_heatmap(path, [&arguments.a, &arguments.b]))?;
+    let [a, b] = Picture::load_pair(&arguments.a, &arguments.b).map_err(Failure::input)?;
+    let differences = Differences::between(&a, &b);
+    let flip = with_progress("flip", |step| FlipMap::between(&a, &b, step));
+    if let Some(path) = heatmap {
+        let bytes = flip.heat_map().to_png().map_err(Failure::input)?;
+        write_atomically(path, &bytes).map_err(Failure::input)?;
+    }
+    if arguments.json {
+        say(figures(arguments, &a, &differences, &flip));
+    } else {
+        report(arguments, &a, &differences, &flip);
+    }
+    match arguments.fail_above {
+        Some(most) if flip.mean() > most => {
+            let name = arguments.a.display();
+            Err(Failure::check(format!("{name}: FLIP {} is above {most}: --heatmap shows where", flip.mean())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The heat map is a .png that can be written and is none of the pictures.
+fn check_heatmap(path: &Path, inputs: [&Path; 2]) -> Result<(), Failure> {
+    let name = path.display();
+    if Format::of(path).ok() != Some(Format::Png) {
+        return Err(Failure::input(format!("--heatmap {name}: a heat map is a .png: give it that extension")));
+    }
+    check_writable(path).map_err(Failure::input)?;
+    let place = fs::canonicalize(path).ok();
+    if place.is_some() && inputs.into_iter().any(|input| fs::canonicalize(input).ok() == place) {
+        return Err(Failure::input(format!("--heatmap {name}: is a picture to be compared: choose another place")));
+    }
+    Ok(())
+}
+
+fn report(arguments: &Compare, a: &Picture, differences: &Differences, flip: &FlipMap) {
+    let (values, variant) = match &flip.exposures {
+        None => ("shown values in [0,1]", "LDR".to_owned()),
+        Some(e) => {
+            ("linear radiance", format!("HDR, {} exposures from {:.2} to {:.2} stops", e.count, e.first, e.last))
+        }
+    };
+    say(format!("{} against {}: {}x{}, {values}", arguments.a.display(), arguments.b.display(), a.width, a.height));
+    say(format!("FLIP: {:.6}, greatest {:.6} ({variant})", flip.mean(), flip.greatest()));
+    let relative = differences.relative_mean_absolute;
+    let relative = relative.map_or("none, the reference is black".to_owned(), figure);
+    say(format!("relative mean absolute error: {relative}"));
+    say(format!("mean error: {}", figure(differences.mean)));
+    let largest = &differences.largest;
+    let [x, y] = largest.at;
+    let channel = CHANNELS[largest.channel];
+    say(format!(
+        "largest error: {} in {channel} at {x},{y} ({} instead of {})",
+        figure(largest.error()),
+        figure(largest.test.into()),
+        figure(largest.reference.into())
+    ));
+    if let Some(path) = &arguments.heatmap {
+        say(format!("heat map: {}", path.display()));
+    }
+}
+
+/// The digits of a float, the exponent of ten apart where they would be many.
+fn figure(value: f64) -> String {
+    format!("{:?}", value as f32)
+}
+
+fn figures(arguments: &Compare, a: &Picture, differences: &Differences, flip: &FlipMap) -> serde_json::Value {
+    let exposures = flip.exposures.as_ref();
+    let largest = &differences.largest;
+    json!({
+        "a": arguments.a.display().to_string(),
+        "b": arguments.b.display().to_string(),
+        "size": [a.width, a.height],
+        "values": if exposures.is_some() { "linear" } else { "shown" },
+        "flip": flip.mean(),
+        "flip_greatest": flip.greatest(),
+        "flip_exposures": exposures.map(|exposures| exposures.stops().collect::<Vec<f64>>()),
+        "relative_mean_absolute_error": differences.relative_mean_absolute,
+        "mean_absolute_error": differences.mean_absolute,
+        "mean_error": differences.mean,
+        "largest_error": {
+            "error": largest.error(),
+            "at": largest.at,
+            "channel": CHANNELS[largest.channel],
+            "a": largest.test,
+            "b": largest.reference,
+        },
+        "heatmap": arguments.heatmap.as_ref().map(|path| path.display().to_string()),
+    })
+}

@@ -1,0 +1,224 @@
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use image::codecs::{openexr::OpenExrDecoder, png::PngDecoder};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageResult, Limits};
+
+use super::{DisplayImage, Format, LinearImage};
+
+/// Most pixels along a side of a picture that is read.
+pub const MAX_SIDE: u32 = 16384;
+/// Most pixels of a picture that is read: 7680 x 4320 fits, and takes 400 MB.
+pub const MAX_PIXELS: u64 = 1 << 25;
+
+/// A picture whose numbers mean what its kind of file says: linear radiance of a .exr, shown values in [0, 1] (sRGB) of a
+/// .png. Rows from the top, pixels from the left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub format: Format,
+    pub width: u32,
+    pub height: u32,
+    /// `width * height` triples.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+/// A picture could not be read, or not be compared.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    #[error("{}: the extension says what is read: use .png or .exr", path.display())]
+    Extension { path: PathBuf },
+    #[error("{}: cannot be opened ({source}): name a picture that is there", path.display())]
+    Open { path: PathBuf, source: std::io::Error },
+    #[error("{}: is no file: name a picture", path.display())]
+    NoFile { path: PathBuf },
+    #[error("{}: cannot be read as {format} ({source}): make it anew", path.display())]
+    Decode { path: PathBuf, format: Format, source: ImageError },
+    #[error(
+        "{}: {width}x{height} is too large: {MAX_SIDE} pixels a side and {MAX_PIXELS} in all are read; crop or scale it",
+        path.display()
+    )]
+    TooLarge { path: PathBuf, width: u32, height: u32 },
+    #[error(
+        "{}: {count} pixels are infinite or not a number, the first at {x},{y} from the top left: mend them, or render it anew",
+        path.display()
+    )]
+    NotFinite { path: PathBuf, count: usize, x: u32, y: u32 },
+    #[error(
+        "{} is linear radiance and {} is as shown: compare two .exr or two .png",
+        exr.display(), png.display()
+    )]
+    Kinds { exr: PathBuf, png: PathBuf },
+    #[error(
+        "{} is {}x{} and {} is {}x{}: give both the same size",
+        first.display(), sizes[0][0], sizes[0][1], second.display(), sizes[1][0], sizes[1][1]
+    )]
+    Sizes { first: PathBuf, second: PathBuf, sizes: [[u32; 2]; 2] },
+}
+
+impl Picture {
+    /// Reads a .png of 8 or 16 bits a channel or a .exr of halves or floats with channels R, G and B (of several layers the
+    /// first that has them). Alpha is left out. No memory is taken for a picture that is larger than [`MAX_SIDE`] and
+    /// [`MAX_PIXELS`] allow, and all numbers of a picture that is returned are finite.
+    pub fn load(path: &Path) -> Result<Self, ReadError> {
+        let format = format_of(path)?;
+        let open_error = |source| ReadError::Open { path: path.to_owned(), source };
+        if !std::fs::metadata(path).map_err(open_error)?.is_file() {
+            return Err(ReadError::NoFile { path: path.to_owned() });
+        }
+        let file = BufReader::new(File::open(path).map_err(open_error)?);
+        let picture = match format {
+            Format::Png => {
+                let image = decode(path, format, PngDecoder::with_limits(file, Limits::default()))?.into_rgb16();
+                // 8 bits are the 16 bits 257 times as large, so both are the same quotients.
+                let shown = |channel| f32::from(channel) / f32::from(u16::MAX);
+                let (width, height) = image.dimensions();
+                Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0.map(shown)).collect() }
+            }
+            Format::Exr => {
+                let decoder = OpenExrDecoder::with_alpha_preference(file, Some(false));
+                let image = decode(path, format, decoder)?.into_rgb32f();
+                let (width, height) = image.dimensions();
+                Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() }
+            }
+        };
+        picture.check_finite(path)?;
+        Ok(picture)
+    }
+
+    /// Reads two pictures that can be compared: of one kind and one size.
+    pub fn load_pair(first: &Path, second: &Path) -> Result<[Self; 2], ReadError> {
+        match [format_of(first)?, format_of(second)?] {
+            [Format::Exr, Format::Png] => Err(ReadError::Kinds { exr: first.to_owned(), png: second.to_owned() }),
+            [Format::Png, Format::Exr] => Err(ReadError::Kinds { exr: second.to_owned(), png: first.to_owned() }),
+            _ => Ok(()),
+        }?;
+        let pair = [Self::load(first)?, Self::load(second)?];
+        let sizes = pair.each_ref().map(|picture| [picture.width, picture.height]);
+        if sizes[0] != sizes[1] {
+            return Err(ReadError::Sizes { first: first.to_owned(), second: second.to_owned(), sizes });
+        }
+        Ok(pair)
+    }
+
+    /// Where a pixel stands, by its index: pixels from the left, rows from the top.
+    pub(super) fn place(&self, index: usize) -> [u32; 2] {
+        [index as u32 % self.width, index as u32 / self.width]
+    }
+
+    pub(super) fn assert_comparable(&self, other: &Self) {
+        let about = |picture: &Self| (picture.format, picture.width, picture.height);
+        assert_eq!(about(self), about(other), "pictures of one kind and one size are compared");
+        for picture in [self, other] {
+            assert!(picture.width > 0 && picture.height > 0, "{}x{}", picture.width, picture.height);
+            assert_eq!(picture.pixels.len(), picture.width as usize * picture.height as usize, "number of pixels");
+            if let Some((count, at)) = picture.not_finite() {
+                panic!("{count} pixels are infinite or not a number, the first at {at:?}");
+            }
+        }
+    }
+
+    fn check_finite(&self, path: &Path) -> Result<(), ReadError> {
+        match self.not_finite() {
+            None => Ok(()),
+            Some((count, [x, y])) => Err(ReadError::NotFinite { path: path.to_owned(), count, x, y }),
+        }
+    }
+
+    /// How many pixels are infinite or not a number, and where the first one is.
+    fn not_finite(&self) -> Option<(usize, [u32; 2])> {
+        let wrong = |pixel: &[f32; 3]| !pixel.iter().all(|channel| channel.is_finite());
+        let first = self.pixels.iter().position(wrong)?;
+        Some((self.pixels[first..].iter().filter(|pixel| wrong(pixel)).count(), self.place(first)))
+    }
+}
+
+impl From<LinearImage> for Picture {
+    fn from(image: LinearImage) -> Self {
+        Self { format: Format::Exr, width: image.width, height: image.height, pixels: image.pixels }
+    }
+}
+
+impl From<&DisplayImage> for Picture {
+    fn from(image: &DisplayImage) -> Self {
+        let pixels = image.pixels.iter().map(|pixel| pixel.map(|channel| f32::from(channel) / 255.0)).collect();
+        Self { format: Format::Png, width: image.width, height: image.height, pixels }
+    }
+}
+
+fn format_of(path: &Path) -> Result<Format, ReadError> {
+    Format::of(path).map_err(|_| ReadError::Extension { path: path.to_owned() })
+}
+
+/// Sees to the size before memory is taken for the pixels.
+fn decode(path: &Path, format: Format, decoder: ImageResult<impl ImageDecoder>) -> Result<DynamicImage, ReadError> {
+    let error = |source| ReadError::Decode { path: path.to_owned(), format, source };
+    let decoder = decoder.map_err(error)?;
+    let (width, height) = decoder.dimensions();
+    if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(ReadError::TooLarge { path: path.to_owned(), width, height });
+    }
+    DynamicImage::from_decoder(decoder).map_err(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn put(folder: &tempfile::TempDir, name: &str, image: &DynamicImage) -> PathBuf {
+        let path = folder.path().join(name);
+        image.save(&path).unwrap();
+        path
+    }
+
+    /// 8 and 16 bits, grey and with alpha: what is shown, to the last bit.
+    #[test]
+    fn png_of_any_depth_is_read_as_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let bytes = image::RgbImage::from_fn(2, 1, |x, _| image::Rgb([[255, 51, 0], [1, 128, 254]][x as usize]));
+        let alpha =
+            image::RgbaImage::from_fn(2, 1, |x, _| image::Rgba([[255, 51, 0, 9], [1, 128, 254, 0]][x as usize]));
+        let words =
+            image::ImageBuffer::from_fn(2, 1, |x, _| image::Rgb([[65535, 13107, 0], [1, 0, 65534]][x as usize]));
+        let grey = image::GrayImage::from_fn(2, 1, |x, _| image::Luma([[0], [51]][x as usize]));
+        let quotient = |of: u16, all: u16| f32::from(of) / f32::from(all);
+        let eight = vec![[1.0, 0.2, 0.0], [quotient(1, 255), quotient(128, 255), quotient(254, 255)]];
+        for (image, pixels) in [
+            (DynamicImage::ImageRgb8(bytes), eight.clone()),
+            (DynamicImage::ImageRgba8(alpha), eight),
+            (DynamicImage::ImageRgb16(words), vec![[1.0, 0.2, 0.0], [quotient(1, 65535), 0.0, quotient(65534, 65535)]]),
+            (DynamicImage::ImageLuma8(grey), vec![[0.0; 3], [0.2; 3]]),
+        ] {
+            let read = Picture::load(&put(&folder, "picture.png", &image)).unwrap();
+            assert_eq!(read, Picture { format: Format::Png, width: 2, height: 1, pixels });
+        }
+    }
+
+    #[test]
+    fn exr_is_read_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let pixels = vec![[1e-30, -2.5, 7e30], [0.1, 0.2, 0.3]];
+        let alpha = image::Rgba32FImage::from_fn(1, 2, |_, y| {
+            let [red, green, blue] = pixels[y as usize];
+            image::Rgba([red, green, blue, 0.5])
+        });
+        let expected = Picture { format: Format::Exr, width: 1, height: 2, pixels: pixels.clone() };
+        assert_eq!(Picture::load(&put(&folder, "a.exr", &DynamicImage::ImageRgba32F(alpha))).unwrap(), expected);
+        let own = LinearImage { width: 1, height: 2, pixels };
+        std::fs::write(folder.path().join("b.exr"), own.to_exr().unwrap()).unwrap();
+        assert_eq!(Picture::load(&folder.path().join("b.exr")).unwrap(), expected);
+        assert_eq!(Picture::from(own), expected);
+    }
+
+    #[test]
+    fn what_is_not_finite_is_counted_and_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut picture = LinearImage { width: 5, height: 4, pixels: vec![[1.0; 3]; 20] };
+        picture.pixels[13] = [f32::NAN; 3];
+        picture.pixels[17][2] = f32::NEG_INFINITY;
+        let path = folder.path().join("a.exr");
+        std::fs::write(&path, picture.to_exr().unwrap()).unwrap();
+        let said = Picture::load(&path).unwrap_err().to_string();
+        assert!(said.contains("a.exr: 2 pixels") && said.contains("at 3,2 "), "{said}");
+    }
+}
