@@ -26,7 +26,7 @@ static ENDING: AtomicBool = AtomicBool::new(false);
 
 /// How much is done where nobody said: with the lobes of real time, whose light is found exactly, it only has to smooth edges.
 #[cfg(feature = "gpu")]
-const PLAIN: Effort = Effort { samples: 64, seed: 0 };
+const PLAIN: Effort = Effort { samples: 16, seed: 0 };
 
 pub fn reference(arguments: &Reference) -> Result<(), Failure> {
     let mut timing = Timing::default();

@@ -231,7 +231,7 @@ fn tables_with_something_wrong() {
 }
 
 /// A machine where neither Vulkan nor OpenGL finds a driver.
-fn deviceless(mut command: Command) -> Command {
+pub fn deviceless(mut command: Command) -> Command {
     for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_FILENAMES"] {
         command.env(variable, "/nowhere/driver.json");
     }

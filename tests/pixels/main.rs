@@ -9,6 +9,7 @@ mod golden;
 mod lights;
 mod radiance;
 mod reference;
+mod reference_command;
 mod run;
 mod shown;
 mod stage;

@@ -3,11 +3,11 @@
 use glam::Vec3;
 use velour::picture::LinearImage;
 use velour::reference::{Effort, Filter, Options, Picture, Reference};
-use velour::scene::{Overrides, Scene, Settings, SheenModel};
+use velour::scene::{Layering, Material, Overrides, Scene, Settings, Sheen, SheenModel};
 use velour::table::LtcTable;
 
 use super::compare::{SIZE, linear, sheen_alone};
-use super::stage::{Stage, Thing, facing, glow, looking, velvet};
+use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
 
 /// What real time computes: direct light that nothing stands in the way of, at the pixels' centres.
 const REAL_TIME: Options =
@@ -186,4 +186,93 @@ fn shadows_are_where_straight_lines_say() {
     let bare = linear(&self::stage(0.5).scene(), &table, &settings, SIZE);
     differences(&bare, &open).unwrap();
     assert!(mean(&covered.radiance) < 0.02 * mean(&open.radiance));
+}
+
+/// The walk through the slab, the slab's table and its fit are of one lobe: the first two agree within their noise, and the fit does not.
+#[test]
+fn the_walk_is_the_slab_and_the_fit_is_near() {
+    let table = LtcTable::embedded();
+    for alpha in [0.3, 0.8] {
+        let scene = stage(alpha).scene();
+        let of = |model, samples| traced(&scene, &table, &with_model(model), REAL_TIME, samples);
+        let slab = of(SheenModel::Slab, 256);
+        let walk = of(SheenModel::Walk, 256);
+        let (found, expected) = (mean(&walk.radiance), mean(&slab.radiance));
+        // Three standard errors of the mean, and what the slab's table may be off.
+        let square =
+            |picture: &Picture| picture.errors.pixels.iter().map(|error| f64::from(error[0]).powi(2)).sum::<f64>();
+        let error = (square(&walk) + square(&slab)).sqrt() / walk.errors.pixels.len() as f64;
+        let allowed = 3.0 * error + 0.002 * expected;
+        assert!(
+            error < 0.02 * expected && (found - expected).abs() < allowed,
+            "alpha {alpha}: {found} {expected} {error}"
+        );
+        // Pixels one by one, each with its own noise.
+        let deviation = |((walk, slab), error): ((&[f32; 3], &[f32; 3]), &[f32; 3])| (walk[0] - slab[0]) / error[0];
+        let pixels = walk.radiance.pixels.iter().zip(&slab.radiance.pixels).zip(&walk.errors.pixels);
+        let deviations: Vec<f32> = pixels.filter(|(_, error)| error[0] > 0.0).map(deviation).collect();
+        let beyond = deviations.iter().filter(|deviation| deviation.abs() > 4.0).count();
+        assert!(deviations.len() > 1000 && (beyond as f64) < 0.03 * deviations.len() as f64, "alpha {alpha}: {beyond}");
+        assert!(differences(&of(SheenModel::Ltc, 64).radiance, &slab).is_err(), "alpha {alpha}");
+    }
+}
+
+/// In a white furnace light that nothing absorbs all comes back, through the layer and off the base, whatever alpha.
+#[test]
+fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
+    let table = LtcTable::embedded();
+    for (alpha, weight) in [(0.1, 1.0), (0.5, 1.0), (1.0, 0.6)] {
+        let mut stage = stage(alpha);
+        stage.things.truncate(1);
+        let material = &mut stage.things[0].material;
+        material.base_color = Vec3::ONE;
+        material.sheen = Some(Sheen { color: Vec3::ONE, roughness: alpha, weight });
+        let overrides = Overrides { layering: Some(Layering::Walk), ..Overrides::default() };
+        for shadows in [true, false] {
+            let settings = Settings { ambient: Vec3::ONE, overrides, ..Settings::default() };
+            let picture = traced(&stage.scene(), &table, &settings, Options { shadows, ..REAL_TIME }, 16);
+            let lit: Vec<f32> =
+                picture.radiance.pixels.iter().map(|pixel| pixel[1]).filter(|&value| value > 0.0).collect();
+            assert!(lit.len() > 1000);
+            // Each path brings back all that it took, but for those that are ended at random.
+            let mean = lit.iter().map(|&value| f64::from(value)).sum::<f64>() / lit.len() as f64;
+            assert!((mean - 1.0).abs() < 1e-3, "alpha {alpha}: {mean}");
+        }
+    }
+}
+
+/// In a closed box whose walls glow and reflect half of what arrives, each bounce adds half of the one before.
+#[test]
+fn bounces_add_up_to_what_a_closed_box_has() {
+    let table = LtcTable::embedded();
+    let wall = Material { base_color: Vec3::splat(0.5), ..glow([1.0; 3]) };
+    let places = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
+    let walls = places.map(|at| Thing::rectangle([1.0, 1.0], wall.clone()).placed(facing(at.to_array(), ORIGIN)));
+    let scene = Stage::new(walls.to_vec(), looking([0.1, 0.2, 0.3], [0.5, -0.4, -0.9])).scene();
+    for (max_bounces, expected) in [(0, 1.5), (1, 1.75), (4, 2.0 - 0.5_f64.powi(6))] {
+        let options = Options { max_bounces, shadows: true, ..REAL_TIME };
+        let picture = traced(&scene, &table, &Settings::default(), options, 32);
+        assert!((mean(&picture.radiance) / expected - 1.0).abs() < 1e-3, "{max_bounces}: {}", mean(&picture.radiance));
+    }
+}
+
+/// A uniform environment seen from inside a closed box is not seen; from an open floor it is all there.
+#[test]
+fn the_environment_is_shadowed() {
+    let table = LtcTable::embedded();
+    let settings = Settings { ambient: Vec3::ONE, ..Settings::default() };
+    let grey = Material { base_color: Vec3::splat(0.5), ..plain() };
+    let floor = Thing::rectangle([1.5, 1.5], grey.clone()).placed(facing(ORIGIN, UP));
+    let open = Stage::new(vec![floor.clone()], looking([0.4, 1.1, 2.6], ORIGIN));
+    let options = Options { shadows: true, ..REAL_TIME };
+    let picture = traced(&open.scene(), &table, &settings, options, 16);
+    let lit = picture.radiance.pixels.iter().map(|pixel| pixel[0]).filter(|&value| value > 0.0);
+    assert!(lit.clone().count() > 1000 && lit.clone().all(|value| (value - 0.5).abs() < 1e-6));
+    let mut roofed = open;
+    let roof = Thing::rectangle([300.0, 300.0], grey).placed(facing([0.0, 3.0, 0.0], ORIGIN));
+    roofed.things.push(roof);
+    let picture = traced(&roofed.scene(), &table, &settings, options, 64);
+    let floor_pixels = &picture.radiance.pixels[96 * 40..];
+    let mean = floor_pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / floor_pixels.len() as f64;
+    assert!(mean < 0.01, "{mean}");
 }
