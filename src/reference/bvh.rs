@@ -169,7 +169,8 @@ impl<P: Primitive> Bvh<P> {
         }
         let entry = Vec3A::from((origin + start * ray.direction).as_vec3());
         let start = start * self.scale;
-        let direction = Vec3A::from(ray.direction.as_vec3());
+        // Added, a zero loses its sign: the tree takes -0 for a direction that goes down.
+        let direction = Vec3A::from(ray.direction.as_vec3()) + Vec3A::ZERO;
         Some((start, obvhs::ray::Ray::new(entry, direction, 0.0, self.shortened(far - start))))
     }
 

@@ -4,9 +4,13 @@
 //! stands in the way; a lobe that only resembles one is left with the ratio of both.
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::lights::{Lit, Seen, worth};
 use crate::table::SpecularLtc;
+
+/// Lobes that lights are sampled by, each of a colour.
+pub(super) type Sampled = SmallVec<[(DVec3, SpecularLtc); 4]>;
 
 /// A lobe and a part of a light.
 struct Choice {
@@ -18,17 +22,17 @@ struct Choice {
 
 /// The lights that a point sees, by the lobes that they are sampled with.
 pub(super) struct Chooser<'a> {
-    lobes: Vec<(DVec3, SpecularLtc)>,
-    seen: Vec<Seen<'a>>,
-    choices: Vec<Choice>,
+    lobes: Sampled,
+    seen: SmallVec<[Seen<'a>; 4]>,
+    choices: SmallVec<[Choice; 12]>,
     /// The sum of all choices' worth: of colour, radiance and share of the lobe.
     worth: f64,
 }
 
 impl<'a> Chooser<'a> {
     /// Of lobes, each of a colour.
-    pub fn new(lobes: Vec<(DVec3, SpecularLtc)>, seen: Vec<Seen<'a>>) -> Self {
-        let mut choices = Vec::with_capacity(lobes.len() * seen.len());
+    pub fn new(lobes: Sampled, seen: SmallVec<[Seen<'a>; 4]>) -> Self {
+        let mut choices: SmallVec<[Choice; 12]> = SmallVec::with_capacity(lobes.len() * seen.len());
         let mut sum = 0.0;
         for (at, part) in seen.iter().enumerate() {
             for (lobe, (color, ltc)) in lobes.iter().enumerate() {

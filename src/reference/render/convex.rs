@@ -7,12 +7,16 @@
 //! importance sampling for polygonal lights", samples the same areas.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 use std::f64::consts::PI;
 
 /// Newton's steps to an azimuth: with the bracket that they keep, more than doubles need.
 const STEPS: usize = 24;
 /// Share of a sector's area to which its azimuth is found.
 const TOLERANCE: f64 = 1e-14;
+
+/// Vertices in order. Those of few corners, which most lights are, need no memory of their own.
+pub(super) type Outline = SmallVec<[DVec3; 8]>;
 
 /// The share of the cosine's hemisphere that a polygon above the horizon takes: in \[0, 1\] where its azimuth runs
 /// counter-clockwise about z, negative where it runs clockwise. Vertices need not be of unit length.
@@ -32,8 +36,8 @@ fn sector(p: DVec3, q: DVec3) -> f64 {
 }
 
 /// The part of an outline on the side to which `plane` points (Sutherland and Hodgman 1974).
-pub(super) fn clip(outline: &[DVec3], plane: DVec3) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(outline.len() + 2);
+pub(super) fn clip(outline: &[DVec3], plane: DVec3) -> Outline {
+    let mut kept = Outline::with_capacity(outline.len() + 2);
     for (p, q) in edges(outline) {
         let [start, end] = [p, q].map(|vertex| plane.dot(vertex));
         if start >= 0.0 {
@@ -59,21 +63,23 @@ struct Sector {
 
 /// A convex polygon above the horizon, ready to be sampled with the density cos / pi over its own share.
 pub(super) struct Convex {
-    sectors: Vec<Sector>,
+    sectors: Sectors,
     area: f64,
 }
+
+type Sectors = SmallVec<[Sector; 8]>;
 
 impl Convex {
     /// Of vertices in order either way round, z >= 0, in a polygon that is convex seen from the origin.
     pub fn new(vertices: &[DVec3]) -> Self {
-        let mut vertices: Vec<DVec3> = vertices.iter().filter_map(|vertex| vertex.try_normalize()).collect();
-        if cosine_share(&vertices) < 0.0 {
+        let mut vertices: Outline = vertices.iter().filter_map(|vertex| vertex.try_normalize()).collect();
+        let normal: DVec3 = edges(&vertices).map(|(p, q)| p.cross(q)).sum();
+        if normal.dot(vertices.iter().sum()) < 0.0 {
             vertices.reverse();
         }
-        let arcs: Vec<(DVec3, DVec3)> = edges(&vertices).collect();
-        let holds_zenith = arcs.iter().all(|(p, q)| p.cross(*q).z >= 0.0);
-        let sectors = if holds_zenith { around_zenith(&arcs) } else { between_chains(&vertices) };
-        let sectors: Vec<Sector> = sectors.into_iter().filter(|sector| sector.area > 0.0).collect();
+        let holds_zenith = edges(&vertices).all(|(p, q)| p.cross(q).z >= 0.0);
+        let mut sectors = if holds_zenith { around_zenith(&vertices) } else { between_chains(&vertices) };
+        sectors.retain(|sector| sector.area > 0.0);
         let area = sectors.iter().map(|sector| sector.area).sum();
         Self { sectors, area }
     }
@@ -93,28 +99,32 @@ impl Convex {
     }
 }
 
-fn around_zenith(arcs: &[(DVec3, DVec3)]) -> Vec<Sector> {
-    let one = |&(p, q): &(DVec3, DVec3)| Sector {
+fn around_zenith(vertices: &[DVec3]) -> Sectors {
+    let one = |(p, q): (DVec3, DVec3)| Sector {
         from: p.truncate(),
         to: q.truncate(),
         outer: p.cross(q).normalize_or_zero(),
         inner: None,
         area: sector(p, q),
     };
-    arcs.iter().map(one).collect()
+    edges(vertices).map(one).collect()
 }
 
 /// Sectors from one vertex' azimuth to the next, of a polygon that the zenith is outside of.
-fn between_chains(vertices: &[DVec3]) -> Vec<Sector> {
+fn between_chains(vertices: &[DVec3]) -> Sectors {
     let count = vertices.len();
-    let middle = vertices.iter().sum::<DVec3>().truncate();
-    let azimuths: Vec<f64> =
-        vertices.iter().map(|vertex| middle.perp_dot(vertex.truncate()).atan2(middle.dot(vertex.truncate()))).collect();
+    let middle = vertices.iter().sum::<DVec3>().truncate().normalize_or_zero();
+    // The tangent of half the azimuth from the middle, which grows with it.
+    let azimuth = |vertex: &DVec3| {
+        let across = vertex.truncate();
+        middle.perp_dot(across) / (across.length() + middle.dot(across)).max(f64::MIN_POSITIVE)
+    };
+    let azimuths: SmallVec<[f64; 8]> = vertices.iter().map(azimuth).collect();
     let extreme = |sign: f64| (0..count).max_by(|&i, &j| (sign * azimuths[i]).total_cmp(&(sign * azimuths[j])));
-    let (Some(first), Some(last)) = (extreme(-1.0), extreme(1.0)) else { return Vec::new() };
+    let (Some(first), Some(last)) = (extreme(-1.0), extreme(1.0)) else { return Sectors::new() };
     // Outwards the vertices run from the first azimuth to the last, on the inside back.
     let chain = |from: usize, to: usize, step: usize| {
-        let mut chain = vec![from];
+        let mut chain: SmallVec<[usize; 8]> = smallvec::smallvec![from];
         while chain[chain.len() - 1] != to {
             chain.push((chain[chain.len() - 1] + step) % count);
         }
@@ -124,7 +134,7 @@ fn between_chains(vertices: &[DVec3]) -> Vec<Sector> {
     let normal = |chain: &[usize], at: usize| vertices[chain[at]].cross(vertices[chain[at + 1]]).normalize_or_zero();
     let (mut out, mut into) = (0, 0);
     let mut from = vertices[first].truncate();
-    let mut sectors = Vec::with_capacity(count);
+    let mut sectors = Sectors::with_capacity(count);
     while out + 1 < outer.len() && into + 1 < inner.len() {
         let (next_out, next_in) = (outer[out + 1], inner[into + 1]);
         let outer_first = azimuths[next_out] <= azimuths[next_in];
@@ -266,7 +276,7 @@ mod tests {
                 let turned =
                     DVec3::new(rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5, rng.random::<f64>() - 0.5);
                 let plane = through.cross(turned).normalize();
-                let part = form_factor(&[clip(&vertices, plane)], DMat3::IDENTITY, true) / whole;
+                let part = form_factor(&[clip(&vertices, plane).to_vec()], DMat3::IDENTITY, true) / whole;
                 let found = samples.iter().filter(|wo| plane.dot(**wo) > 0.0).count() as f64 / f64::from(SAMPLES);
                 let deviation = (part * (1.0 - part) / f64::from(SAMPLES)).sqrt();
                 // 4.5 standard errors: 108 comparisons are off once in 1400 sets of them.

@@ -2,8 +2,9 @@
 
 use earcut::Earcut;
 use glam::{DMat3, DVec2, DVec3};
+use smallvec::SmallVec;
 
-use super::convex::{Convex, clip, cosine_share, edges};
+use super::convex::{Convex, Outline, clip, cosine_share, edges};
 use super::luminance;
 use crate::reference::bvh::Ray;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
@@ -34,7 +35,7 @@ pub(super) struct Lights<'a> {
 /// A part as a point sees it: what of it is above the horizon, in the point's frame.
 pub(super) struct Seen<'a> {
     part: &'a Part,
-    outline: Vec<DVec3>,
+    outline: Outline,
 }
 
 /// A direction that is lit.
@@ -56,7 +57,7 @@ impl<'a> Lights<'a> {
     }
 
     /// What a point sees of them: `p_world` and its frame, `up` the surface's own normal in it, which a normal map leaves.
-    pub fn seen(&self, p_world: DVec3, local_from_world: DMat3, up: DVec3) -> Vec<Seen<'_>> {
+    pub fn seen(&self, p_world: DVec3, local_from_world: DMat3, up: DVec3) -> SmallVec<[Seen<'_>; 4]> {
         let seen = |part: &'_ Part| {
             let to_vertex = part.vertices[0] - p_world;
             let height = -part.normal.dot(to_vertex);
@@ -64,7 +65,7 @@ impl<'a> Lights<'a> {
             if height.abs() <= IN_PLANE * size || (height < 0.0 && !part.two_sided) {
                 return None;
             }
-            let outline: Vec<DVec3> =
+            let outline: Outline =
                 part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
             let mut outline = clip(&outline, DVec3::Z);
             if up != DVec3::Z {
@@ -86,7 +87,7 @@ impl Seen<'_> {
         cosine_share(&self.transformed(ltc)).abs()
     }
 
-    fn transformed(&self, ltc: &SpecularLtc) -> Vec<DVec3> {
+    fn transformed(&self, ltc: &SpecularLtc) -> Outline {
         let place = |v: &DVec3| DVec3::new(ltc.a * v.x + ltc.b * v.z, ltc.c * v.y, v.z.max(0.0));
         self.outline.iter().map(place).collect()
     }

@@ -1,6 +1,7 @@
 //! The lobes of a surface at a point: what they scatter, and how directions are found in them.
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::SpecularModel;
 use super::models::Models;
@@ -45,7 +46,7 @@ impl Lobe<'_> {
 
 /// All lobes of a surface that scatter as functions; the random walk through the fibres stands apart.
 pub(super) struct Lobes<'a> {
-    pub lobes: Vec<Lobe<'a>>,
+    pub lobes: SmallVec<[Lobe<'a>; 3]>,
     pub wi: DVec3,
     /// Of the reciprocal rule: the sheen, its strongest channel, and what is left of the base on the view's side.
     reciprocal: Option<(SheenAlbedo<'a>, f64, f64)>,
@@ -71,7 +72,7 @@ impl SheenAlbedo<'_> {
 impl<'a> Lobes<'a> {
     /// Those of the surface that are wanted, as the view sees them.
     pub fn new(surface: &Surface, models: &'a Models, wanted: Wanted) -> Self {
-        let mut found = Self { lobes: Vec::with_capacity(3), wi: surface.wi, reciprocal: None };
+        let mut found = Self { lobes: SmallVec::new(), wi: surface.wi, reciprocal: None };
         let mu = surface.mu();
         let mut base = 1.0;
         if let Some(at) = &surface.sheen {
@@ -88,7 +89,7 @@ impl<'a> Lobes<'a> {
 
     /// Those of the base alone with nothing on top, from a direction of cosine `mu` and azimuth 0.
     pub fn bare(surface: &Surface, models: &'a Models, wanted: Wanted, mu: f64) -> Self {
-        let mut found = Self { lobes: Vec::with_capacity(2), wi: DVec3::new(sine(mu), 0.0, mu), reciprocal: None };
+        let mut found = Self { lobes: SmallVec::new(), wi: DVec3::new(sine(mu), 0.0, mu), reciprocal: None };
         found.add_base(surface, models, wanted, 1.0);
         found
     }

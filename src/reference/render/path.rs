@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec3};
 
 use super::Options;
-use super::chooser::Chooser;
+use super::chooser::{Chooser, Sampled};
 use super::lights::{Lights, Lit, arriving, shadow_ray};
 use super::lobes::Lobes;
 use super::models::Models;
@@ -137,7 +137,7 @@ impl Light<'_> {
 
     /// The lights that a surface sees, by its lobes; a layer that is walked through by the transformed cosine that resembles it.
     fn chooser(&self, surface: &Surface, lobes: &Lobes) -> Chooser<'_> {
-        let mut sampled: Vec<_> = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
+        let mut sampled: Sampled = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
         if let Some(at) = surface.sheen.filter(is_walked) {
             let [a, b, r] = self.models.sheen_table.lookup(at.alpha, surface.mu());
             sampled.push((at.color * r, SpecularLtc { a, b, c: a }));

@@ -27,11 +27,11 @@ pub(super) fn is_walked(at: &SheenAt) -> bool {
 }
 
 /// A layer over a base at a point.
-pub(super) struct Stack<'a> {
+pub(super) struct Stack<'a, 'b> {
     light: &'a Light<'a>,
-    surface: &'a Surface,
-    lobes: &'a Lobes<'a>,
-    chooser: &'a Chooser<'a>,
+    surface: &'b Surface,
+    lobes: &'b Lobes<'a>,
+    chooser: &'b Chooser<'a>,
     fibres: &'a SheenWalk,
     /// What the fibres tint by.
     color: DVec3,
@@ -83,12 +83,12 @@ impl Walker {
     }
 }
 
-impl<'a> Stack<'a> {
+impl<'a, 'b> Stack<'a, 'b> {
     pub fn new(
         light: &'a Light<'a>,
-        surface: &'a Surface,
+        surface: &'b Surface,
         at: &SheenAt,
-        (lobes, chooser): (&'a Lobes<'a>, &'a Chooser<'a>),
+        (lobes, chooser): (&'b Lobes<'a>, &'b Chooser<'a>),
     ) -> Self {
         let fibres = light.models.walk(surface.material, at);
         let has_base = at.layering == Layering::Walk;
