@@ -1,13 +1,14 @@
 //! Lobes in the plane of incidence: solved, walked, fitted.
 
 use super::Figure;
-use super::polar::{self, Panel};
+use super::polar::{self, Panel, Words};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::physics::walk::{Counts, FirstFlight, Histogram, Walk};
 use crate::table::{Ltc, LtcTable};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
 
 pub const NAME: &str = "lobes.svg";
 
@@ -21,6 +22,13 @@ const PATHS: u64 = 1 << 21;
 const DIM: f64 = 0.01;
 const DIM_PATHS: u64 = 1 << 24;
 
+const WORDS: Words = Words {
+    title: "Lobes of the slab in the plane of incidence, f_r mu_o",
+    solved: "solver (all orders)",
+    counted: "random walk, ±1 standard error",
+    fitted: "table's transformed cosine",
+};
+
 /// Elevations at which curves are computed: 1/4 degree apart.
 const STEPS: usize = 720;
 
@@ -28,8 +36,10 @@ const STEPS: usize = 720;
 const POOL_COUNTS: u64 = 625;
 const POOL_LEAST: f64 = 1.5 * PI / 180.0;
 const POOL_MOST: f64 = 8.0 * PI / 180.0;
+/// Bins of azimuths on either side of the plane of incidence that are counted to it.
+const SECTOR: usize = 1;
 /// Fewer paths than this say little, and less of their own error.
-const FEWEST: u64 = 25;
+pub(super) const FEWEST: u64 = 25;
 
 /// A lobe per steradian, along the elevations from the normal in \[-pi/2, pi/2\], above 0 towards `wi`.
 pub type Curve = Vec<[f64; 2]>;
@@ -74,7 +84,7 @@ pub fn lobes(table: &LtcTable, step: impl Fn()) -> Figure {
         Resolution::default().modes,
         table.checksum()
     );
-    let svg = polar::draw(&panels, MUS.len(), &caption);
+    let svg = polar::draw(&panels, MUS.len(), &WORDS, &caption);
     Figure { name: NAME, svg, caption }
 }
 
@@ -85,55 +95,57 @@ fn panel(table: &LtcTable, transport: &Transport, [alpha, mu]: [f64; 2], seed: u
     let albedo = transport.albedo(mu);
     let paths = if albedo < DIM { DIM_PATHS } else { PATHS };
     let walk = Walk { slab: *transport.slab(), mu, first_flight: FirstFlight::Scattered, paths, seed };
-    let mut walked = pools(&walk.run(), walk.share());
-    walked.retain(|pool| pool.count >= FEWEST);
+    let mut counted = pools(&walk.run(), walk.share(), SECTOR);
+    counted.retain(|pool| pool.count >= FEWEST);
     Panel {
         title: format!("alpha {alpha}, mu {mu}: R = {}", digits(albedo)),
         wi: mu.acos(),
         solved: curve(|wo| transport.reflected(wi, wo)),
         fitted: curve(|wo| r * ltc.density(wo)),
-        walked,
+        counted,
     }
 }
 
 /// To four decimals; small numbers to three digits.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     if value < 1e-3 { format!("{value:.2e}") } else { format!("{value:.4}") }
 }
 
 /// Azimuth to which the sectors next to the plane of incidence reach, on either side of it: the walk's first bin and its last.
 fn sector() -> f64 {
-    Histogram::phi_range(0)[1]
+    Histogram::phi_range(SECTOR - 1)[1]
 }
 
 /// `lobe` along the plane of incidence, at all elevations.
-fn curve(lobe: impl Fn(DVec3) -> f64) -> Curve {
+pub(super) fn curve(lobe: impl Fn(DVec3) -> f64) -> Curve {
     let elevation = |k: usize| PI * k as f64 / STEPS as f64 - FRAC_PI_2;
     (0..=STEPS).map(|k| [elevation(k), lobe(in_plane(elevation(k)))]).collect()
 }
 
 /// The direction in the plane of incidence of an elevation from the normal in \[-pi/2, pi/2\], above 0 towards `wi`.
-fn in_plane(elevation: f64) -> DVec3 {
+pub(super) fn in_plane(elevation: f64) -> DVec3 {
     let (x, z) = elevation.sin_cos();
     DVec3::new(x, 0.0, z.max(0.0))
 }
 
-/// The walk's histogram next to the plane of incidence, from the horizon opposite of `wi` to the one below it; each path stands for
-/// `share` of the light.
-fn pools(counts: &Counts, share: f64) -> Vec<Pool> {
-    let away = pools_of_side(counts, share, Histogram::PHI_BINS - 1);
+/// The walk's histogram over `sector` bins of azimuths on either side of the plane of incidence, from the horizon opposite of `wi` to the one
+/// below it; each path stands for `share` of the light.
+pub(super) fn pools(counts: &Counts, share: f64, sector: usize) -> Vec<Pool> {
+    let away = pools_of_side(counts, share, Histogram::PHI_BINS - sector..Histogram::PHI_BINS);
     let mirrored = away.into_iter().map(|pool| {
         let [low, high] = pool.elevations;
         Pool { elevations: [-high, -low], ..pool }
     });
-    let towards = pools_of_side(counts, share, 0);
+    let towards = pools_of_side(counts, share, 0..sector);
     mirrored.chain(towards.into_iter().rev()).collect()
 }
 
-/// Pools of one bin of azimuths, from the horizon up, elevations as if towards `wi`.
-fn pools_of_side(counts: &Counts, share: f64, column: usize) -> Vec<Pool> {
+/// Pools of some bins of azimuths, from the horizon up, elevations as if towards `wi`.
+fn pools_of_side(counts: &Counts, share: f64, columns: Range<usize>) -> Vec<Pool> {
+    let azimuths = Histogram::phi_range(columns.len() - 1)[1];
+    let in_row = |row: &[u64]| row[columns.clone()].iter().sum::<u64>();
     let rows = counts.reflected_once.bins().zip(counts.reflected_more.bins());
-    let rows: Vec<u64> = rows.map(|(once, more)| once[column] + more[column]).collect();
+    let rows: Vec<u64> = rows.map(|(once, more)| in_row(once) + in_row(more)).collect();
     let elevations = |from: usize, to: usize| [Histogram::mu_range(to)[1].acos(), Histogram::mu_range(from)[0].acos()];
     let (mut pools, mut from, mut count) = (Vec::new(), 0, 0);
     for (to, in_row) in rows.iter().enumerate() {
@@ -143,7 +155,7 @@ fn pools_of_side(counts: &Counts, share: f64, column: usize) -> Vec<Pool> {
         if (count >= POOL_COUNTS && width >= POOL_LEAST) || width >= POOL_MOST || to + 1 == rows.len() {
             let cosines = Histogram::mu_range(to)[1] - Histogram::mu_range(from)[0];
             // Both sides of the plane of incidence.
-            let per_path = share / (2.0 * sector() * cosines);
+            let per_path = share / (2.0 * azimuths * cosines);
             let [mean, error] = [count as f64, (count as f64).sqrt()].map(|count| count * per_path);
             pools.push(Pool { elevations: range, count, mean, error });
             (from, count) = (to + 1, 0);
@@ -222,7 +234,7 @@ mod tests {
         for (alpha, mu) in [(0.6, 0.4), (0.5, 0.1)] {
             let slab = Slab::new(alpha);
             let walk = Walk { slab, mu, first_flight: FirstFlight::Scattered, paths: 1 << 20, seed: 2 };
-            let pools = pools(&walk.run(), walk.share());
+            let pools = pools(&walk.run(), walk.share(), SECTOR);
             assert_eq!(pools[0].elevations[0], -FRAC_PI_2);
             for pair in pools.windows(2) {
                 assert!((pair[0].elevations[1] - pair[1].elevations[0]).abs() < 1e-12, "a gap: {pair:?}");

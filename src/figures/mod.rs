@@ -2,6 +2,7 @@
 //!
 //! - [`table_planes`]: the table's columns a, b, r over (alpha, mu);
 //! - [`lobes`]: the slab's lobes in the plane of incidence, solved, walked and fitted;
+//! - [`fibres`]: the slab beside explicit fibres, which [`all`] leaves out: that takes a minute;
 //! - [`errors`]: the distance of the table's lobes, and of its interpolated r, from the solution.
 //!
 //! Each is the same on any number of threads, and says in its caption what it was made with.
@@ -9,6 +10,7 @@
 mod canvas;
 mod color;
 mod errors;
+pub mod fibres;
 mod field;
 mod lobes;
 #[cfg(test)]

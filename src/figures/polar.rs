@@ -25,7 +25,7 @@ const LEGEND_AT: f64 = 56.0;
 /// Colours that remain apart for the colour-blind (Okabe and Ito 2008).
 const SOLVED: RGBColor = RGBColor(0, 114, 178);
 const FITTED: RGBColor = RGBColor(213, 94, 0);
-const WALKED: RGBColor = BLACK;
+const COUNTED: RGBColor = BLACK;
 
 /// Lobes of one slab and one `wi`.
 pub struct Panel {
@@ -34,18 +34,25 @@ pub struct Panel {
     pub wi: f64,
     pub solved: Curve,
     pub fitted: Curve,
-    pub walked: Vec<Pool>,
+    pub counted: Vec<Pool>,
+}
+
+/// What is written above the panels: the title, and what the curves are.
+pub struct Words {
+    pub title: &'static str,
+    pub solved: &'static str,
+    pub counted: &'static str,
+    pub fitted: &'static str,
 }
 
 /// The picture of `panels`, `columns` in a row, as SVG text.
-pub fn draw(panels: &[Panel], columns: usize, caption: &str) -> String {
+pub fn draw(panels: &[Panel], columns: usize, words: &Words, caption: &str) -> String {
     let width = PANEL[0] * columns as i32;
     let lines = canvas::lines(caption, width - 2 * MARGIN);
     let below = HEADER + PANEL[1] * panels.len().div_ceil(columns) as i32;
     canvas::svg([width, below + canvas::caption_height(lines.len())], UNITS, |area| {
-        let title = "Lobes of the slab in the plane of incidence, f_r mu_o";
-        canvas::title(area, title, [width / 2, 24], UNITS)?;
-        draw_legend(area, f64::from(width) / 2.0)?;
+        canvas::title(area, words.title, [width / 2, 24], UNITS)?;
+        draw_legend(area, words, f64::from(width) / 2.0)?;
         for (index, panel) in panels.iter().enumerate() {
             let [column, row] = [index % columns, index / columns].map(|k| k as i32);
             let corner = [column * PANEL[0], HEADER + row * PANEL[1]];
@@ -55,20 +62,20 @@ pub fn draw(panels: &[Panel], columns: usize, caption: &str) -> String {
     })
 }
 
-fn draw_legend(area: &Area, center: f64) -> Drawn {
+fn draw_legend(area: &Area, words: &Words, center: f64) -> Drawn {
     let label = canvas::text(LABEL * f64::from(UNITS), BLACK, HPos::Left);
     let line = |x: f64| vec![at(x, LEGEND_AT), at(x + 36.0, LEGEND_AT)];
     let [solver, walk, table] = [-350.0, -150.0, 150.0].map(|offset| center + offset);
     area.draw(&PathElement::new(line(solver), stroke(SOLVED, 2.2)))?;
-    area.draw_text("solver (all orders)", &label, at(solver + 44.0, LEGEND_AT))?;
-    area.draw(&PathElement::new(line(walk + 12.0), stroke(WALKED, 1.4)))?;
+    area.draw_text(words.solved, &label, at(solver + 44.0, LEGEND_AT))?;
+    area.draw(&PathElement::new(line(walk + 12.0), stroke(COUNTED, 1.4)))?;
     area.draw(&PathElement::new(
         vec![at(walk + 30.0, LEGEND_AT - 7.0), at(walk + 30.0, LEGEND_AT + 7.0)],
-        stroke(WALKED, 1.0),
+        stroke(COUNTED, 1.0),
     ))?;
-    area.draw_text("random walk, ±1 standard error", &label, at(walk + 56.0, LEGEND_AT))?;
+    area.draw_text(words.counted, &label, at(walk + 56.0, LEGEND_AT))?;
     area.draw(&dashed(line(table)))?;
-    area.draw_text("table's transformed cosine", &label, at(table + 44.0, LEGEND_AT))
+    area.draw_text(words.fitted, &label, at(table + 44.0, LEGEND_AT))
 }
 
 /// A panel's half disc.
@@ -89,7 +96,7 @@ impl Disc<'_, '_> {
         self.area.draw(&PathElement::new(solved, stroke(SOLVED, 2.2)))?;
         let fitted = panel.fitted.iter().map(|&[elevation, value]| self.point(elevation, value)).collect();
         self.area.draw(&dashed(fitted))?;
-        panel.walked.iter().try_for_each(|pool| self.draw_pool(pool))?;
+        panel.counted.iter().try_for_each(|pool| self.draw_pool(pool))?;
         let [x, y] = [0, 1].map(|axis| (self.corner[axis] + TITLE_AT[axis]) * UNITS);
         self.area.draw_text(&panel.title, &canvas::text(LABEL * f64::from(UNITS), BLACK, HPos::Center), (x, y))
     }
@@ -135,9 +142,9 @@ impl Disc<'_, '_> {
         let Pool { elevations, mean, error, .. } = pool;
         let middle = (elevations[0] + elevations[1]) / 2.0;
         let bar = [mean - error, mean + error].map(|value| self.point(middle, value.clamp(0.0, self.outer * 1.1)));
-        self.area.draw(&PathElement::new(self.arc(*elevations, *mean), stroke(WALKED, 1.4)))?;
-        self.area.draw(&PathElement::new(bar.to_vec(), stroke(WALKED, 0.9)))?;
-        self.area.draw(&Circle::new(self.point(middle, *mean), units(1.6), WALKED.filled()))
+        self.area.draw(&PathElement::new(self.arc(*elevations, *mean), stroke(COUNTED, 1.4)))?;
+        self.area.draw(&PathElement::new(bar.to_vec(), stroke(COUNTED, 0.9)))?;
+        self.area.draw(&Circle::new(self.point(middle, *mean), units(1.6), COUNTED.filled()))
     }
 
     fn arc(&self, [from, to]: [f64; 2], value: f64) -> Vec<(i32, i32)> {
@@ -196,6 +203,8 @@ mod tests {
     use super::super::parsed::Parsed;
     use super::*;
 
+    const WORDS: Words = Words { title: "Lobes", solved: "exact", counted: "measured", fitted: "approximate" };
+
     /// A lobe towards `wi` alone, of 0.08 at 60 degrees; fitted on the other side; walked at 45 degrees.
     fn panel() -> Panel {
         let degrees = |degrees: f64, value: f64| [degrees * PI / 180.0, value];
@@ -204,7 +213,7 @@ mod tests {
             wi: PI / 3.0,
             solved: vec![degrees(-90.0, 0.0), degrees(0.0, 0.0), degrees(60.0, 0.08), degrees(90.0, 0.0)],
             fitted: vec![degrees(-90.0, 0.0), degrees(-60.0, 0.04), degrees(0.0, 0.0), degrees(90.0, 0.0)],
-            walked: vec![Pool { elevations: [PI / 6.0, PI / 3.0], count: 100, mean: 0.04, error: 0.004 }],
+            counted: vec![Pool { elevations: [PI / 6.0, PI / 3.0], count: 100, mean: 0.04, error: 0.004 }],
         }
     }
 
@@ -222,7 +231,7 @@ mod tests {
 
     #[test]
     fn lobes_stand_where_they_point() {
-        let parsed = Parsed::new(&draw(&[panel()], 1, "A caption."));
+        let parsed = Parsed::new(&draw(&[panel()], 1, &WORDS, "A caption."));
         // Half a unit of the grid.
         let near = |[x, y]: [f64; 2], [right, up]: [f64; 2]| (x - right).abs().max((y - up).abs()) < 0.5 / RADIUS;
         let (sin, cos) = (PI / 3.0).sin_cos();
@@ -233,7 +242,7 @@ mod tests {
         assert!((x + sin / 2.0).hypot(y - cos / 2.0) < 5.0 / RADIUS, "{x}, {y}");
         let arrow = points(&parsed, GREY);
         assert!(arrow.iter().any(|point| near(*point, [sin, cos])), "{arrow:?}");
-        let walked = points(&parsed, WALKED);
+        let walked = points(&parsed, COUNTED);
         let half = 0.5_f64.sqrt();
         for radius in [0.45, 0.55] {
             assert!(walked.iter().any(|point| near(*point, [radius * half, radius * half])), "{walked:?}");
@@ -242,8 +251,8 @@ mod tests {
 
     #[test]
     fn everything_is_labelled() {
-        let parsed = Parsed::new(&draw(&[panel(), panel(), panel()], 2, "A caption."));
-        let legend = ["solver (all orders)", "random walk, ±1 standard error", "table's transformed cosine"];
+        let parsed = Parsed::new(&draw(&[panel(), panel(), panel()], 2, &WORDS, "A caption."));
+        let legend = [WORDS.title, WORDS.solved, WORDS.counted, WORDS.fitted];
         for text in legend.into_iter().chain(["alpha 0.5, mu 0.5", "wi", "-90", "45", "0.08", "A caption."]) {
             parsed.says(text);
         }

@@ -24,6 +24,13 @@ const CHUNK: u64 = 1 << 14;
 /// share their low bits.
 const STREAM_STRIDE: u128 = 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
 
+/// The random numbers of a chunk of paths.
+pub fn stream(seed: u64, index: u64) -> Pcg64 {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    rng.advance(STREAM_STRIDE.wrapping_mul(u128::from(index) + 1));
+    rng
+}
+
 /// How often a path's first flight ends in the slab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FirstFlight {
@@ -77,7 +84,21 @@ impl Counts {
         self.reflected_once.total() + self.reflected_more.total()
     }
 
-    fn plus(mut self, other: &Self) -> Self {
+    /// Counts a path that left along `out` after `scatterings`.
+    #[inline]
+    pub fn count(&mut self, scatterings: u64, out: DVec3) {
+        match (scatterings, out.z > 0.0) {
+            (0, _) => self.unscattered += 1,
+            (1, true) => self.reflected_once.count(out),
+            (_, true) => self.reflected_more.count(out),
+            (1, false) => self.transmitted_once.count(out),
+            (_, false) => self.transmitted_more.count(out),
+        }
+    }
+
+    /// These paths and those of `other`.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
         self.unscattered += other.unscattered;
         self.transmitted_once.add(&other.transmitted_once);
         self.transmitted_more.add(&other.transmitted_more);
@@ -161,8 +182,7 @@ impl Walk {
     }
 
     fn chunk(&self, index: u64, paths: u64) -> Counts {
-        let mut rng = Pcg64::seed_from_u64(self.seed);
-        rng.advance(STREAM_STRIDE.wrapping_mul(u128::from(index) + 1));
+        let mut rng = stream(self.seed, index);
         let mut counts = Counts::default();
         let depth = self.slab.depth(self.mu);
         for _ in 0..paths {

@@ -6,6 +6,8 @@
 mod base;
 #[cfg(feature = "scenes")]
 mod disk_light;
+#[cfg(feature = "cli")]
+mod fibres;
 mod fit;
 mod ggx_table;
 mod hostile_table;

@@ -1,0 +1,154 @@
+//! A layer of fibres that repeats itself sideways.
+
+use super::fibre::{Fibre, Hit};
+use super::forest::Forest;
+use super::planting::{Planting, in_box};
+use crate::math::sine;
+use glam::DVec3;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+/// The layer 0 <= z <= 1 over a square in x and y, repeated without end; black below.
+///
+/// Fibres are planted independently of each other, uniform in a layer thicker by half a fibre above and below, and the layer's faces cut
+/// them: so the layer is the same at every depth. Fibres may cross. Their sides are mirrors seen from outside, while their
+/// cut faces and ends are open and what is within them lets light pass (a share of 0.8 d of light starts there, d the diameter).
+/// Then the number of fibres that a ray enters along any straight way is a Poisson variable, whose mean per length is the
+/// SGGX extinction exactly, for fibres of any diameter and length; and so is what is scattered once. Only what a path remembers differs from the
+/// slab: that it came by a way without fibres, and which fibres it has met.
+#[derive(Clone)]
+pub struct Patch {
+    forest: Forest,
+    period: f64,
+}
+
+/// How a path through a patch ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Passage {
+    /// Above where `direction` points up, else below; without `scatterings`, straight.
+    Left { direction: DVec3, scatterings: u64 },
+    /// After [`MOST_STEPS`] it had still not left.
+    Interrupted,
+}
+
+/// Of reflections and of crossings of the patch's sides: paths of hundreds are rare, so that this holds back broken numbers alone.
+pub const MOST_STEPS: u64 = 1_000_000;
+
+impl Patch {
+    /// The patch with `count` fibres in it, those of its neighbours that reach into it not counted. Its period follows from their density.
+    pub fn new(planting: &Planting, count: usize) -> Self {
+        planting.check();
+        assert!(count > 0, "a patch has fibres");
+        let (axes, overhang) = (planting.axes(), planting.overhang());
+        let (radius, half_length) = (planting.diameter / 2.0, planting.length / 2.0);
+        let period = (count as f64 / planting.reaching()).sqrt();
+        let mut rng = Pcg64::seed_from_u64(planting.seed);
+        let space = DVec3::new(period, period, 1.0 + 2.0 * overhang);
+        let mut fibres = Vec::with_capacity(count);
+        while fibres.len() < count {
+            let middle = in_box(space, &mut rng) - overhang * DVec3::Z;
+            let axis = axes.sample(&mut rng);
+            let reach = half_length * axis.z + radius * sine(axis.z);
+            if middle.z + reach >= 0.0 && middle.z - reach <= 1.0 {
+                fibres.push(Fibre { middle, axis, half_length });
+            }
+        }
+        Self::from_fibres(&fibres, radius, period, planting.spacing())
+    }
+
+    /// The patch of these fibres, whose middles lie over the square of the sides `period` from the origin; [`Forest::new`] says what `piece` is.
+    pub fn from_fibres(fibres: &[Fibre], radius: f64, period: f64, piece: f64) -> Self {
+        assert!(period > 0.0 && period.is_finite(), "a patch has a period: {period}");
+        let domain = [DVec3::ZERO, DVec3::new(period, period, 1.0)];
+        let seen = fibres.iter().flat_map(|fibre| images(*fibre, radius, period)).collect();
+        Self { forest: Forest::new(seen, radius, domain, piece), period }
+    }
+
+    pub fn forest(&self) -> &Forest {
+        &self.forest
+    }
+
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Follows light from a point of the patch along the unit vector `direction`, mirrored by each fibre that it meets, until it leaves.
+    pub fn trace(&self, mut origin: DVec3, mut direction: DVec3) -> Passage {
+        let mut scatterings = 0;
+        for _ in 0..MOST_STEPS {
+            match self.advance(&mut origin, direction) {
+                Step::Met(hit) => {
+                    direction = hit.mirrored(direction);
+                    scatterings += 1;
+                }
+                Step::Left => return Passage::Left { direction, scatterings },
+                Step::Crossed => {}
+            }
+        }
+        Passage::Interrupted
+    }
+
+    /// The first fibre that light from a point of the patch meets, with the whole way to there; `None` where it leaves the layer before.
+    pub fn first(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let mut at = origin;
+        let mut distance = 0.0;
+        for _ in 0..MOST_STEPS {
+            let from = at;
+            match self.advance(&mut at, direction) {
+                Step::Met(hit) => return Some(Hit { distance: distance + hit.distance, ..hit }),
+                Step::Left => return None,
+                Step::Crossed => distance += self.to_side(from, direction).0,
+            }
+        }
+        None
+    }
+
+    /// Goes on from `at` to the next fibre, out, or to the neighbour's other side of the patch, which looks the same.
+    fn advance(&self, at: &mut DVec3, direction: DVec3) -> Step {
+        let (side, axis) = self.to_side(*at, direction);
+        let face = match direction.z {
+            up if up > 0.0 => (1.0 - at.z) / up,
+            down if down < 0.0 => -at.z / down,
+            _ => f64::INFINITY,
+        };
+        if let Some(hit) = self.forest.first(*at, direction, side.min(face)) {
+            *at += hit.distance * direction;
+            return Step::Met(hit);
+        }
+        if face <= side {
+            return Step::Left;
+        }
+        *at += side * direction;
+        at[axis] = if direction[axis] > 0.0 { 0.0 } else { self.period };
+        Step::Crossed
+    }
+
+    /// How far it is to the side that a ray leaves by, and across which axis that lies.
+    fn to_side(&self, at: DVec3, direction: DVec3) -> (f64, usize) {
+        let [x, y] = [0, 1].map(|axis| match direction[axis] {
+            along if along > 0.0 => (self.period - at[axis]) / along,
+            along if along < 0.0 => -at[axis] / along,
+            _ => f64::INFINITY,
+        });
+        if x < y { (x, 0) } else { (y, 1) }
+    }
+}
+
+enum Step {
+    Met(Hit),
+    Left,
+    Crossed,
+}
+
+/// The fibre wherever it reaches into the patch: where it stands, and where neighbours' like it do.
+fn images(fibre: Fibre, radius: f64, period: f64) -> impl Iterator<Item = Fibre> {
+    let [low, high] = fibre.bounds(radius, [-fibre.half_length, fibre.half_length]);
+    // low + k period <= period and high + k period >= 0.
+    let range = move |axis: usize| (-high[axis] / period).ceil() as i64..=(1.0 - low[axis] / period).floor() as i64;
+    range(0).flat_map(move |i| {
+        range(1).map(move |j| {
+            let shift = DVec3::new(i as f64, j as f64, 0.0) * period;
+            Fibre { middle: fibre.middle + shift, ..fibre }
+        })
+    })
+}
