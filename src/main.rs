@@ -13,6 +13,8 @@ mod figures;
 mod fit;
 #[path = "main/inputs.rs"]
 mod inputs;
+#[path = "main/interrupt.rs"]
+mod interrupt;
 #[path = "main/output.rs"]
 mod output;
 #[path = "main/overrides.rs"]

@@ -1,9 +1,10 @@
-//! Pictures of the table and of how right it is, as SVG.
+//! Figures: the table and how right it is, as SVG, and pictures of surfaces.
 //!
 //! - [`table_planes`]: the table's columns a, b, r over (alpha, mu);
 //! - [`lobes`]: the slab's lobes in the plane of incidence, solved, walked and fitted;
 //! - [`fibres`]: the slab beside explicit fibres, which [`all`] leaves out: that takes a minute;
-//! - [`errors`]: the distance of the table's lobes, and of its interpolated r, from the solution.
+//! - [`errors`]: the distance of the table's lobes, and of its interpolated r, from the solution;
+//! - [`plates`]: the paper's figures and our own comparisons, rendered.
 //!
 //! Each is the same on any number of threads, and says in its caption what it was made with.
 
@@ -16,6 +17,7 @@ mod lobes;
 #[cfg(test)]
 mod parsed;
 mod planes;
+pub mod plates;
 mod polar;
 
 pub use errors::errors;

@@ -48,7 +48,8 @@ pub enum Command {
     ///
     /// Pixels that are infinite or not a number are bad input.
     Compare(Compare),
-    /// Draws the table, its lobes and its errors, as .svg
+    /// Makes all figures and the page that shows them: the table, its lobes and errors (.svg), the paper's and our comparisons (.png); what is
+    /// there already, made with the same settings, is left
     Figures(Figures),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]

@@ -1,13 +1,13 @@
 //! `velour reference`: pictures by path tracing; and those of `velour render` where there is no device.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use serde_json::json;
 use velour::picture::{Format, check_writable, write_atomically};
-use velour::reference::{Effort, Options, Picture, ReferenceError};
-use velour::reference::{Reference as Renderer, SpecularModel};
+use velour::reference::{Effort, Options, Picture, Reference as Renderer, ReferenceError};
 
 use crate::inputs::{Inputs, Timing, encoded};
+use crate::interrupt::{ENDING, listen};
 use crate::output::with_progress;
 use crate::render_args::{PictureArgs, Reference};
 use crate::{Failure, complain, say};
@@ -16,13 +16,10 @@ use crate::{Failure, complain, say};
 use {
     crate::render_args::Render,
     velour::picture::LinearImage,
-    velour::reference::Filter,
+    velour::reference::{Filter, SpecularModel},
     velour::scene::{Scene, Settings},
     velour::table::LtcTable,
 };
-
-/// Set once the user has asked for an end: what there is is written. Asked twice, the program ends at once.
-static ENDING: AtomicBool = AtomicBool::new(false);
 
 /// How much is done where nobody said: with the lobes of real time, whose light is found exactly, it only has to smooth edges.
 #[cfg(feature = "gpu")]
@@ -67,12 +64,7 @@ fn render(
     effort: Effort,
     timing: &mut Timing,
 ) -> Result<(Picture, Counts), Failure> {
-    // Without the handler Ctrl-C ends the program as ever.
-    let _ = ctrlc::set_handler(|| {
-        if ENDING.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
+    listen();
     let Inputs { scene, settings, table, .. } = inputs;
     let renderer = timing.measure("build", || Renderer::new(scene, settings, table, options)).map_err(failure)?;
     let camera = inputs.camera();

@@ -52,7 +52,6 @@ fn every_model_and_rule_gives_a_picture() {
         "--layering reciprocal",
         "--layering walk",
         "--shadows off --filter centre",
-        "--specular-model ggx",
         "--lobes sheen",
         "--set 0.sheen-model=slab --set 0.layering=none",
         "--ambient 0.2,0.2,0.2 --roughness-map square",

@@ -65,8 +65,7 @@ impl<'a> Lights<'a> {
             if height.abs() <= IN_PLANE * size || (height < 0.0 && !part.two_sided) {
                 return None;
             }
-            let outline: Outline =
-                part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
+            let outline: Outline = part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
             let mut outline = clip(&outline, DVec3::Z);
             if up != DVec3::Z {
                 outline = clip(&outline, up);

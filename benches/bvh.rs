@@ -1,0 +1,118 @@
+//! Rays against the default scene's 80,000 triangles: building hierarchies over them, and following rays through.
+//!
+//! The library's is one of eight boxes a node in `f32` around triangles met in `f64`; beside it stands one of two boxes a node, by the
+//! same crate. Rays are a camera's, side by side, and those of light that is scattered from where they meet the scene.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::ray::RayHit;
+use obvhs::{Boundable, BvhBuildParams};
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use velour::math::warp::unit_sphere;
+use velour::reference::bvh::{Bvh, Primitive, Ray};
+use velour::scene::gltf;
+
+/// Rays of each kind.
+const SIDE: usize = 128;
+
+#[derive(Clone)]
+struct Triangle([DVec3; 3]);
+
+impl Primitive for Triangle {
+    type Place = ();
+
+    fn bounds(&self) -> [DVec3; 2] {
+        let [a, b, c] = self.0;
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    fn meet(&self, ray: &Ray) -> Option<(f64, ())> {
+        let [a, b, c] = self.0;
+        let (first, second) = (b - a, c - a);
+        let across = ray.direction.cross(second);
+        let inverse = 1.0 / first.dot(across);
+        let to_origin = ray.origin - a;
+        let u = to_origin.dot(across) * inverse;
+        let over = to_origin.cross(first);
+        let v = ray.direction.dot(over) * inverse;
+        let distance = second.dot(over) * inverse;
+        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 1e-9).then_some((distance, ()))
+    }
+}
+
+impl Boundable for Triangle {
+    fn aabb(&self) -> Aabb {
+        let [low, high] = self.bounds();
+        Aabb::new(Vec3A::from(low.as_vec3()) - 1e-5, Vec3A::from(high.as_vec3()) + 1e-5)
+    }
+}
+
+fn triangles() -> Vec<Triangle> {
+    let scene = gltf::from_slice(include_bytes!("../assets/drape.glb"), "drape.glb").expect("the asset is read");
+    let of_instance = |instance: &velour::scene::Instance| {
+        let (mesh, world_from_mesh) = (scene.meshes[instance.mesh].clone(), instance.world_from_mesh.as_dmat4());
+        let place = move |corner: u32| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());
+        let triangles = scene.meshes[instance.mesh].indices.as_chunks::<3>().0.to_vec();
+        triangles.into_iter().map(move |corners| Triangle(corners.map(&place))).collect::<Vec<_>>()
+    };
+    scene.instances.iter().flat_map(of_instance).collect()
+}
+
+/// The camera's rays, and one at random from each place that they meet.
+fn rays(bvh: &Bvh<Triangle>) -> [Vec<Ray>; 2] {
+    let origin = DVec3::new(0.6, 1.2, 2.4);
+    let towards = |k: usize| {
+        let at = [k % SIDE, k / SIDE].map(|at| at as f64 / SIDE as f64 - 0.5);
+        Ray { origin, direction: (DVec3::new(at[0], 0.5 - at[1], 0.0) - origin).normalize() }
+    };
+    let camera: Vec<Ray> = (0..SIDE * SIDE).map(towards).collect();
+    let mut rng = Pcg64::seed_from_u64(1);
+    let met = camera.iter().filter_map(|ray| Some(ray.at(bvh.nearest(ray, [0.0, 1e9], |_| true)?.distance - 1e-6)));
+    let scattered = met.map(|origin| Ray { origin, direction: unit_sphere(&mut rng) }).collect();
+    [camera, scattered]
+}
+
+fn nearest_of_two(tree: &Bvh2, triangles: &[Triangle], ray: &Ray) -> f64 {
+    let [origin, direction] = [ray.origin, ray.direction].map(|vector| Vec3A::from(vector.as_vec3()) + Vec3A::ZERO);
+    let mut nearest = f64::INFINITY;
+    tree.ray_traverse(obvhs::ray::Ray::new(origin, direction, 0.0, f32::INFINITY), &mut RayHit::none(), |_, index| {
+        let triangle = &triangles[tree.primitive_indices[index] as usize];
+        if let Some((distance, ())) = triangle.meet(ray).filter(|(distance, ())| *distance < nearest) {
+            nearest = distance;
+        }
+        nearest as f32 * 1.000_01
+    });
+    nearest
+}
+
+fn bench(criterion: &mut Criterion) {
+    let triangles = triangles();
+    let mut group = criterion.benchmark_group("bvh");
+    group.sample_size(20);
+    group.throughput(Throughput::Elements(triangles.len() as u64));
+    group.bench_function("build", |bencher| bencher.iter(|| Bvh::new(black_box(triangles.clone()))));
+    let two = || build_bvh2(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+    group.bench_function("build, two boxes a node", |bencher| bencher.iter(two));
+    let (bvh, tree) = (Bvh::new(triangles.clone()), two());
+    for (name, rays) in ["camera", "scattered"].into_iter().zip(rays(&bvh)) {
+        group.throughput(Throughput::Elements(rays.len() as u64));
+        let nearest = |ray: &Ray| bvh.nearest(ray, [0.0, 1e9], |_| true).map_or(f64::INFINITY, |met| met.distance);
+        for ray in &rays {
+            assert_eq!(nearest(ray), nearest_of_two(&tree, &triangles, ray));
+        }
+        let sum = |value: &dyn Fn(&Ray) -> f64| rays.iter().map(value).sum::<f64>();
+        group.bench_function(name, |bencher| bencher.iter(|| sum(&nearest)));
+        let other = |ray: &Ray| nearest_of_two(&tree, &triangles, ray);
+        group.bench_function(format!("{name}, two boxes a node"), |bencher| bencher.iter(|| sum(&other)));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, bench);
+criterion_main!(benches);

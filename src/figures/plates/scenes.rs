@@ -1,0 +1,64 @@
+//! Plates of the assets: the cloth and the dusty sculpture.
+
+use super::{Plate, Shot};
+use crate::reference::Options;
+use crate::scene::{Layering, Overrides, Scene, SceneError, Settings, gltf};
+use glam::Vec3;
+use std::collections::BTreeMap;
+
+const DRAPE: &[u8] = include_bytes!("../../../assets/drape.glb");
+const DUST: &[u8] = include_bytes!("../../../assets/dust.glb");
+
+/// Of the cloth.
+const COLOR: Vec3 = Vec3::new(0.6, 0.55, 0.5);
+
+fn shot() -> Shot {
+    Shot { size: [640, 360], samples: 64, exposure: 0.0, options: Options { max_bounces: 2, ..Options::default() } }
+}
+
+pub fn plates() -> Vec<Plate> {
+    vec![cloth("none", None), cloth("low", Some(0.2)), cloth("high", Some(0.7)), dust()]
+}
+
+/// The cloth with a sheen of this alpha, or with none.
+fn cloth(name: &str, alpha: Option<f32>) -> Plate {
+    let says = alpha.map_or("no sheen".to_owned(), |alpha| format!("alpha {alpha}, C_sheen {COLOR}, layering gltf"));
+    let make = move |progress: &super::Progress| {
+        let scene = gltf::from_slice(DRAPE, "drape.glb")?;
+        let velvet = named(&scene, "velvet")?;
+        let overrides = Overrides {
+            alpha: Some(alpha.unwrap_or(1.0)),
+            sheen_color: Some(if alpha.is_some() { COLOR } else { Vec3::ZERO }),
+            layering: Some(Layering::Gltf),
+            ..Overrides::default()
+        };
+        let mut scene = scene;
+        scene.materials[velvet].base_color = Vec3::new(0.05, 0.07, 0.12);
+        let settings = Settings { material_overrides: BTreeMap::from([(velvet, overrides)]), ..Settings::default() };
+        shot().take(&scene, &settings, progress)
+    };
+    let mut settings = vec![("scene", "drape.glb, velvet's base 0.05, 0.07, 0.12".to_owned()), ("sheen", says)];
+    settings.extend(shot().settings());
+    Plate { name: format!("cloth_{name}"), settings, make: Box::new(make) }
+}
+
+/// Dust on the sculpture, as the asset has it.
+fn dust() -> Plate {
+    const ALPHA: f32 = 0.85;
+    let make = |progress: &super::Progress| {
+        let scene = gltf::from_slice(DUST, "dust.glb")?;
+        let dusty = named(&scene, "dusty")?;
+        let overrides = Overrides { alpha: Some(ALPHA), ..Overrides::default() };
+        let settings = Settings { material_overrides: BTreeMap::from([(dusty, overrides)]), ..Settings::default() };
+        shot().take(&scene, &settings, progress)
+    };
+    let mut settings = vec![("scene", "dust.glb".to_owned()), ("sheen", format!("alpha {ALPHA}, the asset's C_sheen"))];
+    settings.extend(shot().settings());
+    Plate { name: "dust".to_owned(), settings, make: Box::new(make) }
+}
+
+/// Index of the material.
+fn named(scene: &Scene, name: &str) -> Result<usize, SceneError> {
+    let found = scene.materials.iter().position(|material| material.name == name);
+    Ok(found.unwrap_or_else(|| panic!("the asset has a material {name}")))
+}
