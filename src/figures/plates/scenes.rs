@@ -13,7 +13,7 @@ const DUST: &[u8] = include_bytes!("../../../assets/dust.glb");
 const COLOR: Vec3 = Vec3::new(0.6, 0.55, 0.5);
 
 fn shot() -> Shot {
-    Shot { size: [640, 360], samples: 64, exposure: 0.0, options: Options { max_bounces: 2, ..Options::default() } }
+    Shot { size: [480, 270], samples: 48, exposure: 0.0, options: Options { max_bounces: 1, ..Options::default() } }
 }
 
 pub fn plates() -> Vec<Plate> {

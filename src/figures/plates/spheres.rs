@@ -139,7 +139,7 @@ pub fn prior_work() -> Vec<Plate> {
         ] {
             let name = format!("sphere_{}_{degrees}", model.name());
             let material = (fuzzy(ALPHA, Vec3::ZERO), degrees);
-            plates.push(plate(name, material, look(model, Layering::Gltf), shot(160, 64, 0.0)));
+            plates.push(plate(name, material, look(model, Layering::Gltf), shot(128, 32, 0.0)));
         }
         plates.push(fibres(degrees));
     }
@@ -148,8 +148,8 @@ pub fn prior_work() -> Vec<Plate> {
 
 /// The same of explicit fibres.
 fn fibres(degrees: f32) -> Plate {
-    const SIDE: u32 = 160;
-    let lit = Lit { window: window(degrees.to_radians()), radiance: RADIANCE, samples: 128 };
+    const SIDE: u32 = 128;
+    let lit = Lit { window: window(degrees.to_radians()), radiance: RADIANCE, samples: 96 };
     let mut settings = vec![("scene", says(degrees, Vec3::ZERO)), ("fibres", ball::says(ALPHA.into()))];
     settings.push(("size", format!("{SIDE}x{SIDE}")));
     settings.push(("samples", lit.samples.to_string()));
@@ -165,7 +165,7 @@ pub fn sweep() -> Vec<Plate> {
         [SheenModel::Ltc, SheenModel::Slab, SheenModel::NeubeltPettineo, SheenModel::ContyKulla, SheenModel::Patry];
     let cell = |model: SheenModel, alpha: f32| {
         let name = format!("sweep_{}_{alpha}", model.name());
-        plate(name, (fuzzy(alpha, Vec3::ZERO), 60.0), look(model, Layering::Gltf), shot(112, 64, 0.0))
+        plate(name, (fuzzy(alpha, Vec3::ZERO), 60.0), look(model, Layering::Gltf), shot(96, 32, 0.0))
     };
     models.into_iter().flat_map(|model| ALPHAS.map(|alpha| cell(model, alpha))).collect()
 }
@@ -175,8 +175,8 @@ pub fn layers() -> Vec<Plate> {
     let of_one_slab = LAYER_ALPHAS.into_iter().flat_map(|alpha| {
         [SheenModel::Ltc, SheenModel::Slab, SheenModel::Walk].map(|model| {
             let name = format!("layers_{}_{alpha}", model.name());
-            let samples = if model == SheenModel::Walk { 256 } else { 64 };
-            plate(name, (fuzzy(alpha, Vec3::ZERO), 60.0), look(model, Layering::Gltf), shot(160, samples, 0.0))
+            let samples = if model == SheenModel::Walk { 256 } else { 32 };
+            plate(name, (fuzzy(alpha, Vec3::ZERO), 60.0), look(model, Layering::Gltf), shot(128, samples, 0.0))
         })
     });
     let rules = [
@@ -189,9 +189,9 @@ pub fn layers() -> Vec<Plate> {
     let over_a_base = LAYER_ALPHAS.into_iter().flat_map(|alpha| {
         rules.map(|(rule, layering)| {
             let name = format!("rules_{rule}_{alpha}");
-            let samples = if layering == Layering::Walk { 256 } else { 64 };
+            let samples = if layering == Layering::Walk { 256 } else { 32 };
             let material = (fuzzy(alpha, Vec3::splat(0.5)), 60.0);
-            plate(name, material, look(SheenModel::Slab, layering), shot(160, samples, 0.0))
+            plate(name, material, look(SheenModel::Slab, layering), shot(128, samples, 0.0))
         })
     });
     of_one_slab.chain(over_a_base).collect()
