@@ -1,7 +1,7 @@
 //! The sheen as single paths through the slab.
 
 use super::{EMPTY_BELOW_ALPHA, check_alpha};
-use crate::math::warp::exponential;
+use crate::math::warp::{exponential, uniform};
 use crate::physics::slab::Slab;
 use glam::DVec3;
 use rand::Rng;
@@ -14,6 +14,10 @@ use rand::Rng;
 pub trait Layer {
     /// Where light from a depth, going `along`, scatters next.
     fn flight(&self, depth: f64, along: DVec3, rng: &mut impl Rng) -> Flight;
+
+    /// Where light that enters by the top, going `along`, scatters first, of that which scatters at all, and what share that is; none where
+    /// none is.
+    fn first_scattering(&self, along: DVec3, rng: &mut impl Rng) -> Option<(f64, f64)>;
 
     /// Where light that goes `along` goes once it is scattered; nothing is absorbed.
     fn scatter(&self, along: DVec3, rng: &mut impl Rng) -> DVec3;
@@ -81,6 +85,14 @@ impl Layer for SheenWalk {
         } else {
             Flight::Below
         }
+    }
+
+    fn first_scattering(&self, along: DVec3, rng: &mut impl Rng) -> Option<(f64, f64)> {
+        let mu = along.z.abs().min(1.0);
+        let slab = self.slab.as_ref().filter(|_| along.z < 0.0)?;
+        let (optical_depth, share) = (slab.depth(mu), slab.scattered(mu));
+        let depth = -(-uniform(rng) * share).ln_1p() / optical_depth;
+        Some((depth.clamp(0.0, 1.0), share))
     }
 
     fn scatter(&self, along: DVec3, rng: &mut impl Rng) -> DVec3 {

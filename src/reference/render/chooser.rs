@@ -68,3 +68,72 @@ impl<'a> Chooser<'a> {
         self.seen.iter().filter_map(move |seen| seen.along(wo))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::lights::Lights;
+    use super::*;
+    use crate::scene::{Light, Polygon, Scene};
+    use glam::{DMat3, Vec3};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64;
+
+    /// A ring with a hole, an L, and a rectangle that reaches below the horizon, of different radiance.
+    fn scene() -> Scene {
+        let plane = |corners: &[[f32; 2]], z: f32| corners.iter().map(|&[x, y]| Vec3::new(x, y, z)).collect::<Vec<_>>();
+        let square = |half: f32| [[-half, half], [half, half], [half, -half], [-half, -half]];
+        let hole: Vec<[f32; 2]> = square(0.4).into_iter().rev().collect();
+        let letter = [[1.0, 0.0], [1.0, 0.8], [1.3, 0.8], [1.3, 0.3], [1.9, 0.3], [1.9, 0.0]];
+        let upright = [[-1.0, -0.5], [-1.0, 0.6], [1.0, 0.6], [1.0, -0.5]].map(|[x, z]| Vec3::new(x, 1.5, z));
+        let light = |contours: Vec<Vec<Vec3>>, normal, radiance| Light {
+            name: String::new(),
+            radiance,
+            texture_mean: Vec3::ONE,
+            two_sided: false,
+            polygons: vec![Polygon { contours, normal }],
+            instance: 0,
+        };
+        let lights = vec![
+            light(vec![plane(&square(0.8), 1.0), plane(&hole, 1.0)], Vec3::NEG_Z, Vec3::new(3.0, 1.0, 0.5)),
+            light(vec![plane(&letter, 0.7)], Vec3::NEG_Z, Vec3::new(0.5, 2.0, 1.0)),
+            light(vec![upright.to_vec()], Vec3::NEG_Y, Vec3::new(1.0, 1.0, 4.0)),
+        ];
+        Scene { lights, ..Scene::default() }
+    }
+
+    /// What the lights send into lobes, by samples on the lights and by samples of the lobes: two ways to one number.
+    #[test]
+    fn lights_and_lobes_find_the_same_light() {
+        const SAMPLES: u32 = 40_000;
+        let scene = scene();
+        let lights = Lights::new(&scene);
+        let mut rng = Pcg64::seed_from_u64(3);
+        for up in [DVec3::Z, DVec3::new(0.3, -0.2, 0.9).normalize()] {
+            let lobes: [(DVec3, SpecularLtc); 2] = [
+                (DVec3::new(0.9, 0.4, 0.2), SpecularLtc { a: 0.4, b: -0.5, c: 0.4 }),
+                (DVec3::new(0.1, 0.5, 0.6), SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }),
+            ];
+            let point = DVec3::new(0.1, -0.2, 0.05);
+            let chooser = Chooser::new(lobes.into_iter().collect(), lights.seen(point, DMat3::IDENTITY, up));
+            let value = |wo: DVec3| lobes.iter().map(|(color, ltc)| *color * ltc.density(wo)).sum::<DVec3>();
+            let mut sums = [DVec3::ZERO; 2];
+            let mut squares = DVec3::ZERO;
+            for _ in 0..SAMPLES {
+                let lit = chooser.sample(rng.random(), [rng.random(), rng.random()]).expect("there is light");
+                assert!(lit.wo.z > 0.0 && up.dot(lit.wo) > -1e-9);
+                sums[0] += value(lit.wo) * lit.radiance / chooser.pdf(&lit);
+                // Both lobes as often as they are bright, one sample each.
+                for (color, ltc) in &lobes {
+                    let wo = ltc.sample([rng.random(), rng.random()]);
+                    let found: DVec3 = chooser.along(wo).map(|lit| *color * lit.radiance).sum();
+                    sums[1] += found;
+                    squares += found * found;
+                }
+            }
+            let [by_lights, by_lobes] = sums.map(|sum| sum / f64::from(SAMPLES));
+            let error = (squares / f64::from(SAMPLES)).map(f64::sqrt) / f64::from(SAMPLES).sqrt();
+            assert!((by_lights - by_lobes).abs().cmple(4.0 * error).all(), "{by_lights} {by_lobes} {error}");
+            assert!(by_lobes.min_element() > 20.0 * error.max_element(), "{by_lobes} is lost in {error}");
+        }
+    }
+}

@@ -58,6 +58,8 @@ struct Walker {
     pdf: f64,
     /// On this way through the layer the fibres have scattered it.
     is_tinted: bool,
+    /// What was there at first.
+    entered: f64,
     /// What it has scattered to the view counts: of light that fibres alone have scattered only where the sheen is wanted.
     counts: bool,
     sum: DVec3,
@@ -74,7 +76,7 @@ impl Walker {
 
     /// Ends some of the paths that bring little, so that the others bring more; false where it ends.
     fn survives(&mut self, rng: &mut impl Rng) -> bool {
-        let survival = self.throughput.max_element() / ROULETTE;
+        let survival = self.throughput.max_element() / (ROULETTE * self.entered);
         if survival >= 1.0 {
             return true;
         }
@@ -138,15 +140,22 @@ impl<'a, 'b> Stack<'a, 'b> {
             throughput: DVec3::ONE,
             pdf: 0.0,
             is_tinted: false,
+            entered: 1.0,
             counts: self.light.settings.lobes.sheen,
             sum: DVec3::ZERO,
         };
+        if !self.has_base {
+            // What passes by is lost: all paths stand for what does not.
+            let Some((depth, share)) = self.fibres.first_scattering(walker.along, rng) else {
+                return (DVec3::ZERO, None);
+            };
+            walker.throughput *= share;
+            walker.entered = share;
+            self.scatter(&mut walker, depth, &sent, rng);
+        }
         loop {
             match self.fibres.flight(walker.depth, walker.along, rng) {
-                Flight::Scattered(depth) => {
-                    walker.depth = depth;
-                    self.scatter(&mut walker, &sent, rng);
-                }
+                Flight::Scattered(depth) => self.scatter(&mut walker, depth, &sent, rng),
                 Flight::Below if self.has_base => {
                     if !self.meet_base(&mut walker, &sent, rng) {
                         return (walker.sum, None);
@@ -162,7 +171,8 @@ impl<'a, 'b> Stack<'a, 'b> {
     }
 
     /// At a fibre.
-    fn scatter(&self, walker: &mut Walker, sent: &[Sent], rng: &mut impl Rng) {
+    fn scatter(&self, walker: &mut Walker, depth: f64, sent: &[Sent], rng: &mut impl Rng) {
+        walker.depth = depth;
         if !walker.is_tinted {
             walker.throughput *= self.color;
             walker.is_tinted = true;
