@@ -33,6 +33,7 @@ pub fn reference(arguments: &Reference) -> Result<(), Failure> {
         }
         check_writable(errors).map_err(Failure::input)?;
     }
+    Renderer::check_size(arguments.picture.size).map_err(failure)?;
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
     let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;

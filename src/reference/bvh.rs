@@ -179,3 +179,106 @@ impl<P: Primitive> Bvh<P> {
         ((length / self.scale).abs() * (1.0 + BEHIND) + BEHIND) as f32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::warp::{uniform, unit_sphere};
+    use rand::SeedableRng;
+    use rand_pcg::Pcg64;
+
+    #[derive(Clone, Copy)]
+    struct Ball {
+        center: DVec3,
+        radius: f64,
+    }
+
+    impl Primitive for Ball {
+        type Place = ();
+
+        fn bounds(&self) -> [DVec3; 2] {
+            [self.center - self.radius, self.center + self.radius]
+        }
+
+        fn meet(&self, ray: &Ray) -> Option<(f64, ())> {
+            let to_center = self.center - ray.origin;
+            let nearest = to_center.dot(ray.direction);
+            let inside = self.radius * self.radius - (to_center - nearest * ray.direction).length_squared();
+            (inside > 0.0).then(|| (nearest - inside.sqrt(), ()))
+        }
+    }
+
+    fn balls(count: usize, offset: DVec3, scale: f64) -> Vec<Ball> {
+        let mut rng = Pcg64::seed_from_u64(5);
+        let ball = |_| Ball {
+            center: offset + scale * unit_sphere(&mut rng) * uniform(&mut rng),
+            radius: scale * 0.02 * uniform(&mut rng),
+        };
+        (0..count).map(ball).collect()
+    }
+
+    /// Rays at random, along the axes (with zeros of either sign), and from far away.
+    fn rays(offset: DVec3, scale: f64) -> Vec<Ray> {
+        let mut rng = Pcg64::seed_from_u64(6);
+        let mut rays = Vec::new();
+        for k in 0..600 {
+            let target = offset + scale * 0.5 * unit_sphere(&mut rng);
+            let direction = match k % 8 {
+                0 => DVec3::new(-0.0, 0.0, 1.0),
+                1 => DVec3::new(0.0, -1.0, -0.0),
+                2 => DVec3::new(1.0, -0.0, -0.0),
+                3 => DVec3::new(1e-9, -1.0, -1e-12).normalize(),
+                _ => unit_sphere(&mut rng),
+            };
+            let distance = [0.3, 3.0, 1e4][k % 3];
+            rays.push(Ray { origin: target - scale * distance * direction, direction });
+        }
+        rays
+    }
+
+    #[test]
+    fn nothing_is_lost_that_a_search_through_all_finds() {
+        for (offset, scale) in [(DVec3::ZERO, 1.0), (DVec3::new(1e3, -5e2, 2e3), 0.1), (DVec3::splat(-7.0), 1e6)] {
+            let all = balls(500, offset, scale);
+            let bvh = Bvh::new(all.clone());
+            assert_eq!(bvh.primitives().len(), all.len());
+            let mut met = 0;
+            for ray in rays(offset, scale) {
+                let range = [0.0, 2e4 * scale];
+                let inside = |distance: &f64| (range[0]..range[1]).contains(distance);
+                let mut expected: Vec<f64> =
+                    all.iter().filter_map(|ball| Some(ball.meet(&ray)?.0)).filter(inside).collect();
+                expected.sort_by(f64::total_cmp);
+                let nearest = bvh.nearest(&ray, range, |_| true).map(|met| met.distance);
+                assert_eq!(nearest, expected.first().copied(), "{ray:?}");
+                // Of those that are taken.
+                let second = bvh.nearest(&ray, range, |met| Some(met.distance) != nearest).map(|met| met.distance);
+                assert_eq!(second, expected.get(1).copied(), "{ray:?}");
+                let mut visited = Vec::new();
+                let stopped = bvh.visit(&ray, range, |met| {
+                    visited.push(met.distance);
+                    ControlFlow::<()>::Continue(())
+                });
+                visited.sort_by(f64::total_cmp);
+                assert_eq!((stopped, &visited), (None, &expected), "{ray:?}");
+                if let Some(first) = nearest {
+                    let short = bvh.nearest(&ray, [0.0, first], |_| true);
+                    assert_eq!(short, None);
+                    assert_eq!(bvh.visit(&ray, range, |met| ControlFlow::Break(met.distance > 0.0)), Some(true));
+                    met += 1;
+                }
+            }
+            assert!(met > 100, "{met} rays meet anything");
+        }
+    }
+
+    #[test]
+    fn none_and_one_are_no_special_cases() {
+        let ray = Ray { origin: DVec3::ZERO, direction: DVec3::Z };
+        assert_eq!(Bvh::<Ball>::new(Vec::new()).nearest(&ray, [0.0, 1e9], |_| true), None);
+        let one = Bvh::new(vec![Ball { center: 3.0 * DVec3::Z, radius: 1.0 }]);
+        assert_eq!(one.nearest(&ray, [0.0, 1e9], |_| true).map(|met| met.distance), Some(2.0));
+        let broken = Bvh::new(vec![Ball { center: DVec3::NAN, radius: 1.0 }]);
+        assert!(broken.primitives().is_empty() && broken.nearest(&ray, [0.0, 1e9], |_| true).is_none());
+    }
+}

@@ -41,7 +41,9 @@ impl Film {
     pub fn finish(self) -> Picture {
         let Self { size: [width, height], samples, batches, pixels } = self;
         let image = |value: &dyn Fn(&Pixel) -> DVec3| {
-            let pixels = pixels.iter().map(|pixel| value(pixel).as_vec3().to_array()).collect();
+            // Brighter than the file's numbers go is as bright as they go.
+            let greatest = DVec3::splat(f32::MAX.into());
+            let pixels = pixels.iter().map(|pixel| value(pixel).min(greatest).as_vec3().to_array()).collect();
             LinearImage { width, height, pixels }
         };
         let deviation = |pixel: &Pixel| {

@@ -107,7 +107,13 @@ pub struct Reference<'a> {
 
 impl<'a> Reference<'a> {
     /// Most pixels of a picture.
-    pub const PIXELS_MAX: u64 = 1 << 28;
+    pub const PIXELS_MAX: u64 = 1 << 25;
+
+    /// Whether a picture of this size is rendered: some hundred bytes a pixel.
+    pub fn check_size(size: [u32; 2]) -> Result<(), ReferenceError> {
+        let fits = u64::from(size[0]) * u64::from(size[1]) <= Self::PIXELS_MAX;
+        if fits { Ok(()) } else { Err(ReferenceError::Size { size, most: Self::PIXELS_MAX }) }
+    }
 
     /// Builds the hierarchy over all that is drawn.
     pub fn new(
@@ -149,10 +155,8 @@ impl<'a> Reference<'a> {
         go_on: impl Fn(u64, u64) -> bool + Sync,
     ) -> Result<Picture, ReferenceError> {
         assert!(samples >= 1, "a pixel has samples: {samples}");
+        Self::check_size(size)?;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        if pixels > Self::PIXELS_MAX {
-            return Err(ReferenceError::Size { size, most: Self::PIXELS_MAX });
-        }
         let view = View::new(camera, size);
         let batch = (samples / BATCHES).clamp(1, BATCH_MOST);
         // Whole numbers of the sequence's squares are the best spread.

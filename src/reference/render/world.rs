@@ -12,7 +12,7 @@ use crate::reference::bvh::{Bvh, Meeting, Ray};
 use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
 
 /// Most triangles of all instances together: some 120 bytes each.
-const TRIANGLES_MAX: usize = 1 << 26;
+const TRIANGLES_MAX: usize = 1 << 25;
 /// Blended surfaces that a ray goes through before what lies behind counts for nothing.
 const OPACITY_LEAST: f64 = 1e-6;
 
