@@ -41,6 +41,8 @@ struct LightsReceiver {
     sheen_color: vec3f,
     sheen_alpha: f32,
     layering: u32,
+    // The sheen where it is no transformed cosine.
+    sheens: SheensView,
 }
 
 // Sums of radiance x form factor; those of the base weighted by what the sheen leaves of it.
@@ -72,7 +74,10 @@ fn lights_add_polygons(receiver: LightsReceiver, before: LightsIncident, base_we
     let end = select(lights_counts.polygons, lights_counts.quads, quads);
     var index = lights_next(receiver, first, end);
     while index < end {
-        let form_factors = polygons_form_factors(receiver, polygons_lights[index], quads);
+        var form_factors = polygons_form_factors(receiver, polygons_lights[index], quads);
+        if SHEENS_MODEL != 0u {
+            form_factors.z = sheens_form_factor(receiver, index, form_factors.x);
+        }
         let radiance = polygons_lights[index].radiance;
         incident = lights_add(receiver, incident, radiance, form_factors, base_weight);
         index = lights_next(receiver, index + 1u, end);
@@ -101,8 +106,8 @@ fn lights_base_weight(receiver: LightsReceiver, base_weight: f32, cosine: f32) -
     if !SURFACES_RECIPROCAL || receiver.layering != MATERIAL_LAYERING_RECIPROCAL {
         return base_weight;
     }
-    let albedo = sheen_lobe(surfaces_sheen_table, receiver.sheen_alpha, cosine).albedo;
-    return min(base_weight, sheen_base_weight(receiver.sheen_color, albedo));
+    let albedo = sheens_lobe(receiver.sheen_alpha, cosine).albedo;
+    return min(base_weight, max(sheen_base_weight(receiver.sheen_color, albedo), 0.0));
 }
 
 fn lights_add(
@@ -129,9 +134,12 @@ fn lights_add_punctual(
     let cone = saturate(light.cone_scale * dot(light.direction, -wo) + light.cone_offset);
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
     let is_above = dot(receiver.up, local) > 0.0;
-    let densities = vec4f(
+    var densities = vec4f(
         ltc_density(POLYGONS_IDENTITY, local), ltc_density(receiver.ggx, local), ltc_density(receiver.sheen, local), 0.0,
     );
+    if SHEENS_MODEL != 0u {
+        densities.z = sheens_value(receiver.sheens, local) / receiver.sheens.albedo;
+    }
     let form_factors = select(vec4f(0.0), densities, is_above) + vec4f(vec3f(0.0), max(local.z, 0.0));
     return lights_add(receiver, incident, falloff * light.intensity, form_factors, base_weight);
 }

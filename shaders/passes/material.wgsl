@@ -177,17 +177,17 @@ fn material_textured(
     return surface;
 }
 
-// What is left of the base under a sheen of this albedo, seen from the view's side.
+// What is left of the base under a sheen of this albedo, which may pass 1 (Conty-Kulla's does), seen from the view's side.
 fn material_base_weight(surface: MaterialSurface, sheen_albedo: f32) -> f32 {
     if !SURFACES_SHEEN {
         return 1.0;
     }
     switch surface.layering {
         case MATERIAL_LAYERING_GLTF, MATERIAL_LAYERING_RECIPROCAL: {
-            return sheen_base_weight(surface.sheen_color, sheen_albedo);
+            return max(sheen_base_weight(surface.sheen_color, sheen_albedo), 0.0);
         }
         case MATERIAL_LAYERING_OPENPBR: {
-            return sheen_base_weight_openpbr(surface.sheen_weight, sheen_albedo);
+            return max(sheen_base_weight_openpbr(surface.sheen_weight, sheen_albedo), 0.0);
         }
         default: {
             return surface.manual;

@@ -41,7 +41,8 @@ pub struct PictureArgs {
     #[arg(long, value_name = "identity|square|sqrt", value_parser = overrides::roughness_map)]
     pub roughness_map: Option<RoughnessMap>,
     /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path by path (both
-    /// with `velour reference` only); or the model of earlier work [default: ltc]
+    /// with `velour reference` only); or a model of earlier work, to compare with: in real time it is summed over 128 points on each polygon
+    /// light [default: ltc]
     #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = overrides::sheen_model)]
     pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds

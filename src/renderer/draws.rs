@@ -116,6 +116,11 @@ impl Draws {
         draws
     }
 
+    /// Whether any instance has a sheen that is summed over points on the lights.
+    pub fn samples_lights(&self) -> bool {
+        self.batches.iter().any(|batch| batch.variant.look.sheen_model != 0)
+    }
+
     /// The runs of opaque instances that may be in the view, batch by batch.
     pub fn opaque(&self, frustum: &Frustum) -> impl Iterator<Item = (&Batch, Range<u32>)> {
         self.batches.iter().filter(|batch| !batch.variant.look.blend).flat_map(|batch| {

@@ -1,8 +1,11 @@
 //! Lights as the shaders walk through them.
 
-use bytemuck::{Pod, Zeroable};
-use glam::{Vec3, Vec4};
+use std::ops::Range;
 
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3, Vec4};
+
+use crate::math::quadrature::gauss_legendre;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
 
 /// `PolygonsLight` of `polygons.wgsl`.
@@ -16,7 +19,9 @@ pub(super) struct GpuPolygon {
     center: Vec3,
     radius: f32,
     end_vertex: u32,
-    padding: [u32; 3],
+    first_point: u32,
+    end_point: u32,
+    padding: u32,
 }
 
 /// `LightsPunctual` of `lights.wgsl`.
@@ -41,6 +46,9 @@ pub(super) struct GpuCounts {
     polygons: u32,
     punctual: u32,
 }
+
+/// Points on each polygon where sheens without a closed form are summed; more where it has many triangles.
+const POINTS: f64 = 128.0;
 
 /// Which kinds of lights there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -70,28 +78,37 @@ pub(super) struct GpuLights {
     /// Outlines: each one's first vertex is marked by w = 1 and comes again at its end, marked by -1.
     pub vertices: Vec<Vec4>,
     pub punctual: Vec<GpuPunctual>,
+    /// Points on the polygons, with the areas that they stand for as w; none where they are not needed.
+    pub points: Vec<Vec4>,
 }
 
 impl GpuLights {
-    pub fn new(scene: &Scene) -> Self {
-        let (mut polygons, mut vertices) = (Vec::new(), Vec::new());
+    /// `sampled`: with points.
+    pub fn new(scene: &Scene, sampled: bool) -> Self {
+        let (mut polygons, mut vertices, mut points) = (Vec::new(), Vec::new(), Vec::new());
         let mut add = |quads: bool| {
             // Black ones light nothing and are left out.
             for light in scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
-                let wanted = light.polygons.iter().filter(|polygon| is_quad(polygon) == quads);
-                polygons.extend(wanted.map(|polygon| gpu_polygon(light, polygon, &mut vertices)));
+                for polygon in light.polygons.iter().filter(|polygon| is_quad(polygon) == quads) {
+                    let first_point = points.len() as u32;
+                    if sampled {
+                        points.extend(spread(polygon));
+                    }
+                    let of_points = first_point..points.len() as u32;
+                    polygons.push(gpu_polygon(light, polygon, &mut vertices, of_points));
+                }
             }
             polygons.len() as u32
         };
         let (quads, all) = (add(true), add(false));
         let punctual: Vec<GpuPunctual> = scene.punctual_lights.iter().map(one_punctual).collect();
         let counts = GpuCounts { quads, polygons: all, punctual: punctual.len() as u32 };
-        Self { counts, polygons, vertices, punctual }
+        Self { counts, polygons, vertices, punctual, points }
     }
 }
 
 /// Adds the vertices of the polygon's outlines.
-fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>) -> GpuPolygon {
+fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, points: Range<u32>) -> GpuPolygon {
     let first_vertex = vertices.len() as u32;
     for contour in &polygon.contours {
         vertices.extend(contour.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
@@ -106,7 +123,9 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>) -> Gp
         center,
         radius,
         end_vertex: vertices.len() as u32,
-        padding: [0; 3],
+        first_point: points.start,
+        end_point: points.end,
+        padding: 0,
     }
 }
 
@@ -122,6 +141,36 @@ fn sphere(polygon: &Polygon) -> (Vec3, f32) {
     // Room for the rounding of the shader's comparison, which is one of world coordinates.
     let size = center.abs().max_element() + radius as f32;
     (center, radius as f32 + 1e-6 * size)
+}
+
+/// Points on a polygon with the areas that they stand for, [`POINTS`] of a rectangle: on each triangle Gauss and Legendre's product, along the
+/// way from a corner to the opposite side and across it, of which a triangle has as many as its share of the area asks for.
+///
+/// What is smooth over the light is integrated far better than by as many points at random or in a low-discrepancy sequence.
+fn spread(polygon: &Polygon) -> Vec<Vec4> {
+    let parts = polygon.convex_parts();
+    let fan = |part: &Vec<DVec3>| -> Vec<[DVec3; 3]> {
+        part.windows(2).skip(1).map(|pair| [part[0], pair[0], pair[1]]).collect()
+    };
+    let triangles: Vec<[DVec3; 3]> = parts.iter().flat_map(fan).collect();
+    let twice_area = |[a, b, c]: &[DVec3; 3]| (b - a).cross(c - a).length();
+    let whole: f64 = triangles.iter().map(twice_area).sum();
+    let mut points = Vec::new();
+    for triangle in triangles.iter().filter(|triangle| twice_area(triangle) > 0.0) {
+        let [a, b, c] = *triangle;
+        let twice_area = twice_area(triangle);
+        // Less a rounding, so that halves ask for half.
+        let side = ((POINTS * twice_area / whole).sqrt() - 1e-6).ceil().max(1.0);
+        let nodes = gauss_legendre(side as usize, 0.0, 1.0);
+        for &(along, along_weight) in &nodes {
+            for &(across, across_weight) in &nodes {
+                let point = a + along * (b - a + across * (c - b));
+                let area = twice_area * along * along_weight * across_weight;
+                points.push(point.as_vec3().extend(area as f32));
+            }
+        }
+    }
+    points
 }
 
 fn one_punctual(light: &PunctualLight) -> GpuPunctual {
@@ -153,7 +202,17 @@ mod tests {
 
     #[test]
     fn structs_stand_as_the_shader_reads_them() {
-        let polygon = members!(GpuPolygon { radiance, two_sided, normal, first_vertex, center, radius, end_vertex });
+        let polygon = members!(GpuPolygon {
+            radiance,
+            two_sided,
+            normal,
+            first_vertex,
+            center,
+            radius,
+            end_vertex,
+            first_point,
+            end_point
+        });
         let punctual = members!(GpuPunctual {
             intensity,
             inverse_range_squared,
@@ -171,6 +230,35 @@ mod tests {
         ] {
             assert_eq!(differences(SURFACES_WGSL, name, size, members), [""; 0]);
         }
+    }
+
+    /// Moments of the points are those of the area, holes left out.
+    #[test]
+    fn points_are_even_over_a_polygon() {
+        let square = |half: f32| [[-half, -half], [half, -half], [half, half], [-half, half]];
+        let place = |[x, y]: [f32; 2]| Vec3::new(x + 3.0, 1.0, -y);
+        let outer: Vec<Vec3> = square(2.0).into_iter().map(place).collect();
+        let hole: Vec<Vec3> = square(1.0).into_iter().rev().map(place).collect();
+        let points = spread(&Polygon { contours: vec![outer.clone(), hole], normal: Vec3::Y });
+        assert!((128..256).contains(&points.len()), "{}", points.len());
+        let flat: Vec<[f32; 2]> = points.iter().map(|point| [point.x - 3.0, point.z]).collect();
+        assert!(points.iter().all(|point| point.y == 1.0));
+        assert!(flat.iter().all(|[x, y]| (1.0..=2.0).contains(&x.abs().max(y.abs()))), "{flat:?}");
+        let sum = |moment: &dyn Fn(&[f32; 2]) -> f32| -> f32 {
+            flat.iter().zip(&points).map(|(at, point)| moment(at) * point.w).sum()
+        };
+        for (found, expected) in [
+            (sum(&|_| 1.0), 12.0),
+            (sum(&|[x, _]| *x), 0.0),
+            (sum(&|[_, y]| *y), 0.0),
+            (sum(&|[x, _]| x * x), (64.0 - 4.0) / 3.0),
+            (sum(&|[x, y]| x * y), 0.0),
+        ] {
+            assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
+        }
+        assert_eq!(spread(&Polygon { contours: vec![outer], normal: Vec3::Y }).len(), 128);
+        let narrow = Polygon { contours: vec![vec![Vec3::X, 2.0 * Vec3::X, 3.0 * Vec3::X]], normal: Vec3::Z };
+        assert!(spread(&narrow).iter().all(|point| point.is_finite()));
     }
 
     #[test]

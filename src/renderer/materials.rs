@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine2, Vec3, Vec4};
 
-use crate::scene::{AlphaMode, Layering, Material, Settings, TextureSlot};
+use crate::scene::{AlphaMode, Layering, Material, Settings, SheenModel, TextureSlot};
 
 /// `MaterialFactors` of `material.wgsl`.
 #[repr(C)]
@@ -30,6 +30,8 @@ pub(super) struct GpuMaterial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Look {
     pub sheen: bool,
+    /// `SHEENS_MODEL` of `sheens.wgsl`: 0 where lights are integrated over in closed form.
+    pub sheen_model: u32,
     pub specular: bool,
     pub reciprocal: bool,
     pub unlit: bool,
@@ -60,6 +62,7 @@ impl Look {
         let textures = TextureSlot::ALL.into_iter().filter(|slot| counts(*slot));
         Self {
             sheen: sheen.is_some() && !material.unlit,
+            sheen_model: sheen.filter(|_| !material.unlit).map_or(0, |look| model_number(look.model)),
             specular: (metallic || material.dielectric_f0() != Vec3::ZERO || material.specular > 0.0)
                 && !material.unlit,
             reciprocal: sheen.is_some() && settings.layering_of(index) == Layering::Reciprocal,
@@ -69,6 +72,18 @@ impl Look {
             double_sided: material.double_sided,
             textures: textures.fold(0, |bits, slot| bits | 1 << slot as u16),
         }
+    }
+}
+
+/// As `sheens.wgsl` counts.
+fn model_number(model: SheenModel) -> u32 {
+    match model {
+        // The latter are refused before.
+        SheenModel::Ltc | SheenModel::Slab | SheenModel::Walk => 0,
+        SheenModel::Burley => 1,
+        SheenModel::ContyKulla => 2,
+        SheenModel::NeubeltPettineo => 3,
+        SheenModel::Patry => 4,
     }
 }
 

@@ -13,6 +13,7 @@ mod materials;
 mod offscreen;
 mod pipelines;
 mod resident;
+mod sheens;
 mod surfaces;
 mod tables;
 mod targets;
@@ -87,7 +88,7 @@ impl Renderer {
         if self.resident.update(gpu, scene, settings)? {
             self.surfaces.rebind(&gpu.device, &self.resident);
         }
-        self.surfaces.prepare(&gpu.device, &self.resident);
+        self.surfaces.prepare(gpu, &self.resident);
         Ok(())
     }
 

@@ -8,7 +8,7 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 
 use super::draws::{Batch, Draws};
 use super::lights::GpuLights;
-use super::materials::{GpuMaterial, factors};
+use super::materials::{GpuMaterial, Look, factors};
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Mesh, Scene, Settings};
 
@@ -33,6 +33,7 @@ pub(super) struct Resident {
     pub polygons: Buffer,
     pub light_vertices: Buffer,
     pub punctual: Buffer,
+    pub light_points: Buffer,
     /// What meshes have in place of the attributes that they lack: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
@@ -54,7 +55,7 @@ impl Resident {
         let material_groups = textures::bind_groups((device, queue), &material_layout, scene);
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let constants = [Vec4::ZERO, Vec4::ONE];
-        let [instances, materials, polygons, light_vertices, punctual] = contents.stored();
+        let [instances, materials, polygons, light_vertices, punctual, light_points] = contents.stored();
         Ok(Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
             instances: storage(instances)?,
@@ -63,6 +64,7 @@ impl Resident {
             polygons: storage(polygons)?,
             light_vertices: storage(light_vertices)?,
             punctual: storage(punctual)?,
+            light_points: storage(light_points)?,
             constants: buffer(device, "constants", bytemuck::cast_slice(&constants), BufferUsages::VERTEX, limit)?,
             material_layout,
             material_groups,
@@ -84,6 +86,7 @@ impl Resident {
             &mut self.polygons,
             &mut self.light_vertices,
             &mut self.punctual,
+            &mut self.light_points,
         ];
         for (buffer_of, (label, bytes)) in buffers.into_iter().zip(contents.stored()) {
             if bytes.len() as u64 <= buffer_of.size() {
@@ -114,23 +117,25 @@ struct Contents {
 
 impl Contents {
     fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
-        let lights = GpuLights::new(scene);
-        let materials = scene.materials.iter().enumerate();
+        let materials = || scene.materials.iter().enumerate();
+        let sampled = materials().any(|(index, material)| Look::new(index, material, settings).sheen_model != 0);
+        let lights = GpuLights::new(scene, sampled);
         Self {
             draws: Draws::new(scene, settings, mesh_bounds, lights.counts.kinds()),
-            materials: materials.map(|(index, material)| factors(index, material, settings)).collect(),
+            materials: materials().map(|(index, material)| factors(index, material, settings)).collect(),
             lights,
         }
     }
 
-    /// What goes into storage, with its name: instances, materials, polygons, their vertices, lights without extent.
-    fn stored(&self) -> [(&'static str, &[u8]); 5] {
+    /// What goes into storage, with its name: instances, materials, polygons, their vertices, lights without extent, points on the polygons.
+    fn stored(&self) -> [(&'static str, &[u8]); 6] {
         [
             ("the instances", bytemuck::cast_slice(&self.draws.instances)),
             ("the materials", bytemuck::cast_slice(&self.materials)),
             ("the lights", bytemuck::cast_slice(&self.lights.polygons)),
             ("the lights' outlines", bytemuck::cast_slice(&self.lights.vertices)),
             ("the lights without extent", bytemuck::cast_slice(&self.lights.punctual)),
+            ("the points on the lights", bytemuck::cast_slice(&self.lights.points)),
         ]
     }
 }

@@ -11,6 +11,7 @@ use super::Gpu;
 use super::draws::{Batch, Frustum, Variant};
 use super::pipelines::Pipelines;
 use super::resident::{MeshBuffers, Resident};
+use super::sheens::SheenAlbedos;
 use super::tables;
 use super::targets::{RadianceFormat, Targets};
 use super::view::View;
@@ -25,6 +26,7 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
+    include_str!("../../shaders/passes/sheens.wgsl"),
     include_str!("../../shaders/passes/surfaces.wgsl"),
 );
 
@@ -47,7 +49,9 @@ pub struct SurfacesPass {
     made: HashMap<(Variant, Option<Face>), RenderPipeline>,
     pipelines: Pipelines,
     frame: wgpu::Buffer,
-    tables: [TextureView; 2],
+    albedos: SheenAlbedos,
+    /// Of the sheen, the specular base, and the albedos of the other sheens.
+    tables: [TextureView; 3],
     bind_group: BindGroup,
     triangles_a_pass: u32,
 }
@@ -71,22 +75,26 @@ impl SurfacesPass {
             bind_group_layouts: &[Some(&layout), Some(&resident.material_layout)],
             immediate_size: 0,
         });
-        let tables = [tables::sheen(gpu, table), tables::ggx(gpu)];
+        let albedos = SheenAlbedos::new(device);
+        let tables = [tables::sheen(gpu, table), tables::ggx(gpu), albedos.view()];
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
         let pipelines = Pipelines { shader, layout: pipeline_layout, radiance };
         let is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let triangles_a_pass = if is_software { TRIANGLES_A_PASS } else { u32::MAX };
         let made = HashMap::new();
-        let mut pass = Self { layout, made, pipelines, frame, tables, bind_group, triangles_a_pass };
-        pass.prepare(device, resident);
+        let mut pass = Self { layout, made, pipelines, frame, albedos, tables, bind_group, triangles_a_pass };
+        pass.prepare(gpu, resident);
         pass
     }
 
-    /// Makes the pipelines that the scene needs and that are not there yet.
-    pub(super) fn prepare(&mut self, device: &Device, resident: &Resident) {
+    /// Makes what the scene needs and what is not there yet: pipelines, and the table of other sheens' albedos.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, resident: &Resident) {
+        if resident.draws.samples_lights() {
+            self.albedos.fill(gpu, &self.pipelines.shader);
+        }
         for batch in &resident.draws.batches {
             for &culled in culled_faces(&batch.variant) {
-                let make = || self.pipelines.make(device, &batch.variant, culled);
+                let make = || self.pipelines.make(&gpu.device, &batch.variant, culled);
                 self.made.entry((batch.variant, culled)).or_insert_with(make);
             }
         }
@@ -249,6 +257,8 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
             entry(6, ShaderStages::FRAGMENT, storage),
             entry(7, ShaderStages::FRAGMENT, storage),
             entry(8, ShaderStages::FRAGMENT, storage),
+            entry(9, ShaderStages::FRAGMENT, storage),
+            entry(10, ShaderStages::FRAGMENT, table),
         ],
     })
 }
@@ -256,7 +266,7 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
 fn bind_group(
     device: &Device,
     layout: &BindGroupLayout,
-    (frame, [sheen, ggx]): (&wgpu::Buffer, &[TextureView; 2]),
+    (frame, [sheen, ggx, albedos]): (&wgpu::Buffer, &[TextureView; 3]),
     resident: &Resident,
 ) -> BindGroup {
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
@@ -273,6 +283,8 @@ fn bind_group(
             entry(6, resident.polygons.as_entire_binding()),
             entry(7, resident.light_vertices.as_entire_binding()),
             entry(8, resident.punctual.as_entire_binding()),
+            entry(9, resident.light_points.as_entire_binding()),
+            entry(10, wgpu::BindingResource::TextureView(albedos)),
         ],
     })
 }

@@ -4,6 +4,7 @@
 
 mod bounds;
 mod camera;
+mod convex_parts;
 mod emission;
 mod emitter;
 mod error;

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::panel::{color_button, slider};
 use super::state::{Change, State};
-use crate::scene::{Layering, Overrides, RoughnessMap, Sheen};
+use crate::scene::{Layering, Overrides, RoughnessMap, Sheen, SheenModel};
 
 /// Share of the base that is left when layering is first made manual.
 const MANUAL: f32 = 0.5;
@@ -83,13 +83,21 @@ fn overrides(ui: &mut Ui, state: &mut State) -> Change {
             slider(ui, egui::Slider::new(share, 0.0..=1.0).fixed_decimals(2));
         });
     }
-    ui.label(format!("sheen model: {}", before.sheen_model.unwrap_or_default().name()));
+    let mut model = before.sheen_model.unwrap_or_default();
+    ui.horizontal(|ui| {
+        ui.label("sheen model");
+        let models = SheenModel::NAMES.into_iter().filter(|(_, model)| model.is_real_time());
+        pick(ui, "sheen model", &mut model, &models.collect::<Vec<_>>());
+    });
     let mut changed = Overrides::default();
     if map != before.roughness_map.unwrap_or_default() {
         changed.roughness_map = Some(map);
     }
     if layering != state.settings.layering_of(index) {
         changed.layering = Some(layering);
+    }
+    if model != before.sheen_model.unwrap_or_default() {
+        changed.sheen_model = Some(model);
     }
     if changed == Overrides::default() {
         return Change::None;

@@ -11,6 +11,7 @@ mod radiance;
 mod reference;
 mod reference_command;
 mod run;
+mod sheen_models;
 mod shown;
 mod stage;
 mod tables;
