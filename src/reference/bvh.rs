@@ -164,7 +164,7 @@ impl<P: Primitive> Bvh<P> {
         let across = (origin - along * ray.direction).length_squared();
         let half = (RADIUS_SQUARE - across).max(0.0).sqrt();
         let start = (-along - half).max(0.0);
-        if across > RADIUS_SQUARE || along > half || !(start * self.scale <= far) {
+        if across > RADIUS_SQUARE || along > half || start * self.scale > far {
             return None;
         }
         let entry = Vec3A::from((origin + start * ray.direction).as_vec3());

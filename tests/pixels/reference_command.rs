@@ -105,7 +105,7 @@ fn an_interrupted_picture_is_whole_and_says_its_samples() {
     assert_eq!(output.status.code(), Some(0), "{stderr}");
     let said: Value = serde_json::from_str(&stdout).unwrap();
     let samples = said["samples"].as_u64().unwrap();
-    assert!(samples >= 16 && samples < 4_000_000 && samples % 16 == 0, "{samples}");
+    assert!((16..4_000_000).contains(&samples) && samples.is_multiple_of(16), "{samples}");
     assert!(stderr.contains(&format!("{samples} of 4000000 samples")), "{stderr}");
     let picture = DisplayImage::from_png(&std::fs::read(bench.path("out.png")).unwrap()).unwrap();
     assert_eq!([picture.width, picture.height], [64, 48]);

@@ -28,8 +28,10 @@ pub struct Plate {
     pub name: String,
     /// What it is made with, a line each: enough to know whether one that is there is this one.
     pub settings: Vec<(&'static str, String)>,
-    make: Box<dyn Fn(&Progress) -> Result<DisplayImage, PlateError> + Send>,
+    make: Box<Make>,
 }
+
+type Make = dyn Fn(&Progress) -> Result<DisplayImage, PlateError> + Send;
 
 /// Told (done, all) steps of a plate, from any thread; says whether to go on.
 pub type Progress<'a> = dyn Fn(u64, u64) -> bool + Sync + 'a;

@@ -149,7 +149,7 @@ pub fn prior_work() -> Vec<Plate> {
 /// The same of explicit fibres.
 fn fibres(degrees: f32) -> Plate {
     const SIDE: u32 = 128;
-    let lit = Lit { window: window(degrees.to_radians()), radiance: RADIANCE, samples: 96 };
+    let lit = Lit { window: window(degrees.to_radians()), radiance: RADIANCE, samples: 384 };
     let mut settings = vec![("scene", says(degrees, Vec3::ZERO)), ("fibres", ball::says(ALPHA.into()))];
     settings.push(("size", format!("{SIDE}x{SIDE}")));
     settings.push(("samples", lit.samples.to_string()));

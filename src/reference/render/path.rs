@@ -166,7 +166,7 @@ impl Light<'_> {
             sum += value * self.visible(surface, &lit, rays);
         }
         for light in self.lights.punctual {
-            if let Some((wo, irradiance)) = self.from_punctual(light, surface, rays) {
+            if let Some((wo, irradiance)) = self.punctual(light, surface, rays) {
                 sum += lobes.evaluate(wo) * irradiance;
             }
         }
@@ -190,13 +190,13 @@ impl Light<'_> {
         }
         let weight = value / pdf;
         if has_ambient && self.options.shadows {
-            sum += weight * self.from_environment(surface, wo, rays);
+            sum += weight * self.environment(surface, wo, rays);
         }
         (sum, on.then(|| (shadow_ray(surface.origin, surface.world_from_local, wo), weight)))
     }
 
     /// Radiance of the environment from a direction, as much of it as comes through.
-    pub fn from_environment(&self, surface: &Surface, wo: DVec3, rays: &mut u64) -> DVec3 {
+    pub fn environment(&self, surface: &Surface, wo: DVec3, rays: &mut u64) -> DVec3 {
         let ambient = self.settings.ambient.as_dvec3() * surface.occlusion;
         if !self.options.shadows {
             return ambient;
@@ -219,7 +219,7 @@ impl Light<'_> {
     }
 
     /// The direction to a light without extent and what arrives of it across the ray, if it is above the horizon.
-    pub fn from_punctual(&self, light: &PunctualLight, surface: &Surface, rays: &mut u64) -> Option<(DVec3, DVec3)> {
+    pub fn punctual(&self, light: &PunctualLight, surface: &Surface, rays: &mut u64) -> Option<(DVec3, DVec3)> {
         let (direction, distance, irradiance) = arriving(light, surface.p_world);
         // Where the light is at the point itself, its direction is none.
         let wo = (surface.world_from_local.transpose() * direction).try_normalize()?;

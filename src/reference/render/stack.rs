@@ -126,7 +126,7 @@ impl<'a, 'b> Stack<'a, 'b> {
             pdf: Some(self.chooser.pdf(&lit)),
         });
         let punctual = self.light.lights.punctual.iter();
-        let punctual = punctual.filter_map(|light| self.light.from_punctual(light, self.surface, rays));
+        let punctual = punctual.filter_map(|light| self.light.punctual(light, self.surface, rays));
         let punctual = punctual.map(|(wo, radiance)| Sent { wo, radiance, pdf: None });
         lit.into_iter().chain(punctual.collect::<Vec<_>>()).collect()
     }
@@ -220,7 +220,7 @@ impl<'a, 'b> Stack<'a, 'b> {
             walker.sum += walker.throughput * lit.radiance * weight * self.light.visible(self.surface, &lit, rays);
         }
         if self.light.settings.ambient != glam::Vec3::ZERO {
-            walker.sum += walker.throughput * self.light.from_environment(self.surface, wo, rays);
+            walker.sum += walker.throughput * self.light.environment(self.surface, wo, rays);
         }
         let ray = shadow_ray(self.surface.origin, self.surface.world_from_local, wo);
         (walker.sum, on.then_some((ray, walker.throughput)))
