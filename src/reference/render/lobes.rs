@@ -12,7 +12,7 @@ use crate::scene::{Layering, Lobes as Wanted, SheenModel};
 use crate::table::{LtcTable, SpecularLtc};
 
 /// The cosine as a transformed one.
-const COSINE: SpecularLtc = SpecularLtc { a: 1.0, b: 0.0, c: 1.0 };
+pub(super) const COSINE: SpecularLtc = SpecularLtc { a: 1.0, b: 0.0, c: 1.0 };
 
 /// A lobe as it is seen from `wi`.
 pub(super) struct Lobe<'a> {
@@ -20,6 +20,8 @@ pub(super) struct Lobe<'a> {
     pub color: DVec3,
     /// A transformed cosine that it is, or that is near it: lights are sampled by it.
     pub ltc: SpecularLtc,
+    /// Light is scattered about as by that. Lobes of earlier models are not: lights are sampled by the plain cosine too.
+    pub is_near: bool,
     /// Under the layer of fibres.
     is_base: bool,
     shape: Shape<'a>,
@@ -123,7 +125,8 @@ impl<'a> Lobes<'a> {
             None => (at.color * r, Shape::Ltc),
             Some(model) => (at.color, Shape::Model(model)),
         };
-        self.add(Lobe { color, ltc: SpecularLtc { a, b, c: a }, is_base: false, shape });
+        let is_near = matches!(at.model, SheenModel::Ltc | SheenModel::Slab | SheenModel::Walk);
+        self.add(Lobe { color, ltc: SpecularLtc { a, b, c: a }, is_near, is_base: false, shape });
     }
 
     fn add_base(&mut self, surface: &Surface, models: &'a Models, wanted: Wanted, weight: f64) {
@@ -134,7 +137,7 @@ impl<'a> Lobes<'a> {
         let below = (1.0 - specular.albedo(&dielectric).max_element()).max(0.0);
         if wanted.diffuse {
             let color = weight * (1.0 - metallic) * below * base_color;
-            self.add(Lobe { color, ltc: COSINE, is_base: true, shape: Shape::Ltc });
+            self.add(Lobe { color, ltc: COSINE, is_near: true, is_base: true, shape: Shape::Ltc });
         }
         if wanted.specular {
             let metal = f0.lerp(base_color, metallic).clamp(DVec3::ZERO, DVec3::ONE);
@@ -145,7 +148,7 @@ impl<'a> Lobes<'a> {
                 Some(facets) if albedo.max_element() > 0.0 => (DVec3::splat(weight), Shape::Facets(facets, schlick)),
                 Some(_) => (DVec3::ZERO, Shape::Ltc),
             };
-            self.add(Lobe { color, ltc: specular.ltc, is_base: true, shape });
+            self.add(Lobe { color, ltc: specular.ltc, is_near: true, is_base: true, shape });
         }
     }
 
@@ -156,9 +159,16 @@ impl<'a> Lobes<'a> {
         self.reciprocal.map_or(1.0, rule)
     }
 
-    /// Whether all of them are transformed cosines.
-    pub fn are_cosines(&self) -> bool {
-        self.lobes.iter().all(|lobe| matches!(lobe.shape, Shape::Ltc))
+    /// What a direction found in them weighs against one found on the lights. Where all are transformed cosines the lights find all; where
+    /// they are near some, nearly all, and of large lights the lobes would bring noise of their own.
+    pub fn weight(&self) -> f64 {
+        if self.lobes.iter().all(|lobe| matches!(lobe.shape, Shape::Ltc)) {
+            0.0
+        } else if self.lobes.iter().all(|lobe| lobe.is_near) {
+            0.25
+        } else {
+            1.0
+        }
     }
 
     /// f_r times the cosine of `wo`, which is unit and above the horizon.

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use super::Options;
 use super::chooser::{Chooser, Sampled};
 use super::lights::{Lights, Lit, arriving, shadow_ray};
-use super::lobes::Lobes;
+use super::lobes::{COSINE, Lobes};
 use super::models::Models;
 use super::stack::{Stack, is_walked};
 use super::surface::Surface;
@@ -19,9 +19,6 @@ use crate::reference::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
 use crate::table::SpecularLtc;
 
-/// What a direction found in the lobes weighs against one found on the lights, which find nearly all: lobes find what these find too
-/// rarely, and of large lights would bring noise of their own.
-const LOBES_WEIGHT: f64 = 0.25;
 /// What lies behind blended surfaces that leave less of it is not looked at.
 const LEAST_SEEN: f64 = 1e-4;
 /// Blended surfaces, and holes, that a path goes through at most.
@@ -138,6 +135,8 @@ impl Light<'_> {
     /// The lights that a surface sees, by its lobes; a layer that is walked through by the transformed cosine that resembles it.
     fn chooser(&self, surface: &Surface, lobes: &Lobes) -> Chooser<'_> {
         let mut sampled: Sampled = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
+        let others = lobes.lobes.iter().filter(|lobe| !lobe.is_near);
+        sampled.extend(others.map(|lobe| (lobe.albedo(surface.mu()), COSINE)));
         if let Some(at) = surface.sheen.filter(is_walked) {
             let [a, b, r] = self.models.sheen_table.lookup(at.alpha, surface.mu());
             sampled.push((at.color * r, SpecularLtc { a, b, c: a }));
@@ -159,9 +158,9 @@ impl Light<'_> {
         if lobes.lobes.is_empty() {
             return (sum, None);
         }
-        let lobe_counts = !lobes.are_cosines();
+        let lobes_weight = lobes.weight();
         if let Some(lit) = chooser.sample(first[0], [first[1], first[2]]) {
-            let density = chooser.pdf(&lit) + if lobe_counts { LOBES_WEIGHT * lobes.pdf(lit.wo) } else { 0.0 };
+            let density = chooser.pdf(&lit) + if lobes_weight > 0.0 { lobes_weight * lobes.pdf(lit.wo) } else { 0.0 };
             let value = lobes.evaluate(lit.wo) * lit.radiance / density;
             sum += value * self.visible(surface, &lit, rays);
         }
@@ -174,7 +173,7 @@ impl Light<'_> {
         if has_ambient && !self.options.shadows {
             sum += self.settings.ambient.as_dvec3() * surface.occlusion * lobes.albedo();
         }
-        let is_needed = lobe_counts || on || (has_ambient && self.options.shadows);
+        let is_needed = lobes_weight > 0.0 || on || (has_ambient && self.options.shadows);
         let Some(wo) = is_needed.then(|| lobes.sample(second[0], [second[1], second[2]])).flatten() else {
             return (sum, None);
         };
@@ -182,10 +181,10 @@ impl Light<'_> {
         if !(pdf > 0.0 && value.max_element() > 0.0 && surface.up.dot(wo) > 0.0) {
             return (sum, None);
         }
-        if lobe_counts {
+        if lobes_weight > 0.0 {
             for lit in chooser.along(wo) {
-                let density = chooser.pdf(&lit) + LOBES_WEIGHT * pdf;
-                sum += LOBES_WEIGHT * value * lit.radiance / density * self.visible(surface, &lit, rays);
+                let density = chooser.pdf(&lit) + lobes_weight * pdf;
+                sum += lobes_weight * value * lit.radiance / density * self.visible(surface, &lit, rays);
             }
         }
         let weight = value / pdf;
