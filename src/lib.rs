@@ -13,11 +13,11 @@
 //! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk; GGX microfacets | |
 //! | [`fit`] | lobe to LTC, r between the nodes, the error report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
-//! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon | |
+//! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; path tracing | path tracing: `gpu` or `cli` |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr in and out, tone curves; how two pictures differ, FLIP with `cli` | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
-//! | `figures` | the table, its lobes and its errors as pictures | `cli` |
+//! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
 //!
 //! # Example

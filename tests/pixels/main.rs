@@ -7,6 +7,7 @@ mod compare;
 mod comparison;
 mod golden;
 mod lights;
+mod modelling;
 mod radiance;
 mod reference;
 mod reference_command;

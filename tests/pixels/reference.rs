@@ -197,6 +197,7 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
         let of = |model, samples| traced(&scene, &table, &with_model(model), REAL_TIME, samples);
         let slab = of(SheenModel::Slab, 256);
         let walk = of(SheenModel::Walk, 256);
+        assert!(differences(&of(SheenModel::Ltc, 64).radiance, &slab).is_err(), "alpha {alpha}");
         let (found, expected) = (mean(&walk.radiance), mean(&slab.radiance));
         // Three standard errors of the mean, and what the slab's table may be off.
         let square =
@@ -207,13 +208,16 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
             error < 0.03 * expected && (found - expected).abs() < allowed,
             "alpha {alpha}: {found} {expected} {error}"
         );
+        if alpha < 0.5 {
+            // What comes back of few paths is not seen in the errors of single pixels.
+            continue;
+        }
         // Pixels one by one, each with its own noise.
         let deviation = |((walk, slab), error): ((&[f32; 3], &[f32; 3]), &[f32; 3])| (walk[0] - slab[0]) / error[0];
         let pixels = walk.radiance.pixels.iter().zip(&slab.radiance.pixels).zip(&walk.errors.pixels);
         let deviations: Vec<f32> = pixels.filter(|(_, error)| error[0] > 0.0).map(deviation).collect();
         let beyond = deviations.iter().filter(|deviation| deviation.abs() > 4.0).count();
         assert!(deviations.len() > 1000 && (beyond as f64) < 0.03 * deviations.len() as f64, "alpha {alpha}: {beyond}");
-        assert!(differences(&of(SheenModel::Ltc, 64).radiance, &slab).is_err(), "alpha {alpha}");
     }
 }
 

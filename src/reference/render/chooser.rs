@@ -1,4 +1,5 @@
-//! Which light is looked for, and by which lobe: in proportion to what they send to the view together.
+//! How light is looked for on the polygons: by which lobe, and, where they are many, on which: in proportion to what they send to the view
+//! together.
 //!
 //! A lobe that is a transformed cosine is sampled over a polygon with its own density, so that its estimate is exact but for what
 //! stands in the way; a lobe that only resembles one is left with the ratio of both.
@@ -12,60 +13,82 @@ use crate::table::SpecularLtc;
 /// Lobes that lights are sampled by, each of a colour.
 pub(super) type Sampled = SmallVec<[(DVec3, SpecularLtc); 4]>;
 
-/// A lobe and a part of a light.
-struct Choice {
-    lobe: usize,
-    seen: usize,
-    /// The sum of these up to this one, over that of all.
-    until: f64,
-}
-
 /// The lights that a point sees, by the lobes that they are sampled with.
 pub(super) struct Chooser<'a> {
     lobes: Sampled,
-    seen: SmallVec<[Seen<'a>; 4]>,
-    choices: SmallVec<[Choice; 12]>,
-    /// The sum of all choices' worth: of colour, radiance and share of the lobe.
+    parts: SmallVec<[Part<'a>; 4]>,
+    /// What all parts are worth: the sum over lobes of colour, radiance and share of the lobe.
     worth: f64,
+    /// Samples that are taken: one on each part, or fewer among them all.
+    samples: usize,
+}
+
+/// A part of a light.
+struct Part<'a> {
+    seen: Seen<'a>,
+    /// What each lobe is worth there.
+    by_lobe: SmallVec<[f64; 4]>,
+    worth: f64,
+    /// The sum of the parts' worth up to this one, over that of all.
+    until: f64,
 }
 
 impl<'a> Chooser<'a> {
-    /// Of lobes, each of a colour.
-    pub fn new(lobes: Sampled, seen: SmallVec<[Seen<'a>; 4]>) -> Self {
-        let mut choices: SmallVec<[Choice; 12]> = SmallVec::with_capacity(lobes.len() * seen.len());
+    /// Of lobes, and of the parts of lights that are seen, from which `most` samples are taken at most.
+    pub fn new(lobes: Sampled, seen: SmallVec<[Seen<'a>; 4]>, most: usize) -> Self {
         let mut sum = 0.0;
-        for (at, part) in seen.iter().enumerate() {
-            for (lobe, (color, ltc)) in lobes.iter().enumerate() {
-                let worth = worth(*color, part.radiance()) * part.share(ltc);
-                if worth > 0.0 {
-                    sum += worth;
-                    choices.push(Choice { lobe, seen: at, until: sum });
-                }
-            }
-        }
-        choices.iter_mut().for_each(|choice| choice.until /= sum);
-        Self { lobes, seen, choices, worth: sum }
+        let part = |seen: Seen<'a>| {
+            let by_lobe: SmallVec<[f64; 4]> =
+                lobes.iter().map(|(color, ltc)| worth(*color, seen.radiance()) * seen.share(ltc)).collect();
+            let worth: f64 = by_lobe.iter().sum();
+            sum += worth;
+            Part { seen, by_lobe, worth, until: sum }
+        };
+        let mut parts: SmallVec<[Part; 4]> = seen.into_iter().map(part).filter(|part| part.worth > 0.0).collect();
+        parts.iter_mut().for_each(|part| part.until /= sum);
+        let samples = parts.len().min(most);
+        Self { lobes, parts, worth: sum, samples }
     }
 
-    /// A lit direction from three uniform numbers in \[0, 1).
-    pub fn sample(&self, choice: f64, uniforms: [f64; 2]) -> Option<Lit> {
-        let at = self.choices.partition_point(|one| one.until <= choice);
-        let Choice { lobe, seen, .. } = self.choices.get(at).or(self.choices.last())?;
-        self.seen[*seen].sample(&self.lobes[*lobe].1, uniforms)
+    /// How many directions there are to be sampled.
+    pub fn samples(&self) -> usize {
+        self.samples
     }
 
-    /// The density with which [`Self::sample`] finds a direction on that part of a light, per steradian.
-    pub fn pdf(&self, lit: &Lit) -> f64 {
-        if self.choices.is_empty() {
-            return 0.0;
-        }
+    /// The lit direction `index` of as many, from three uniform numbers in \[0, 1).
+    pub fn sample(&self, index: usize, [choice, uniforms @ ..]: [f64; 3]) -> Option<Lit> {
+        let (part, choice) = if self.samples == self.parts.len() {
+            (self.parts.get(index)?, choice)
+        } else {
+            // Each sample its own stretch of the parts.
+            let at = (index as f64 + choice) / self.samples as f64;
+            let found = self.parts.partition_point(|part| part.until <= at);
+            let part = self.parts.get(found).or(self.parts.last())?;
+            (part, ((part.until - at) * self.worth / part.worth).clamp(0.0, 1.0))
+        };
+        let mut rest = choice * part.worth;
+        let lobe = part.by_lobe.iter().position(|worth| {
+            rest -= worth;
+            rest < 0.0
+        });
+        // Rounding of the sum, which may have ended at a lobe that has no share.
+        let lobe = lobe.or_else(|| part.by_lobe.iter().rposition(|worth| *worth > 0.0))?;
+        part.seen.sample(&self.lobes[lobe].1, uniforms)
+    }
+
+    /// How many of the samples are expected in a direction on that part of a light, per steradian.
+    pub fn density(&self, lit: &Lit) -> f64 {
         let density = |(color, ltc): &(DVec3, SpecularLtc)| worth(*color, lit.radiance) * ltc.density(lit.wo);
-        self.lobes.iter().map(density).sum::<f64>() / self.worth
+        let found: f64 = self.lobes.iter().map(density).sum();
+        if self.samples < self.parts.len() {
+            return self.samples as f64 * found / self.worth;
+        }
+        self.parts.iter().find(|part| part.seen.index() == lit.part).map_or(0.0, |part| found / part.worth)
     }
 
     /// What a direction meets of the lights, one behind the other.
     pub fn along(&self, wo: DVec3) -> impl Iterator<Item = Lit> + '_ {
-        self.seen.iter().filter_map(move |seen| seen.along(wo))
+        self.parts.iter().filter_map(move |part| part.seen.along(wo))
     }
 }
 
@@ -108,20 +131,24 @@ mod tests {
         let scene = scene();
         let lights = Lights::new(&scene);
         let mut rng = Pcg64::seed_from_u64(3);
-        for up in [DVec3::Z, DVec3::new(0.3, -0.2, 0.9).normalize()] {
+        let up = [DVec3::Z, DVec3::new(0.3, -0.2, 0.9).normalize()];
+        for (up, most) in up.into_iter().flat_map(|up| [(up, 1), (up, 3), (up, 100)]) {
             let lobes: [(DVec3, SpecularLtc); 2] = [
                 (DVec3::new(0.9, 0.4, 0.2), SpecularLtc { a: 0.4, b: -0.5, c: 0.4 }),
                 (DVec3::new(0.1, 0.5, 0.6), SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }),
             ];
             let point = DVec3::new(0.1, -0.2, 0.05);
-            let chooser = Chooser::new(lobes.into_iter().collect(), lights.seen(point, DMat3::IDENTITY, up));
+            let chooser = Chooser::new(lobes.into_iter().collect(), lights.seen(point, DMat3::IDENTITY, up), most);
             let value = |wo: DVec3| lobes.iter().map(|(color, ltc)| *color * ltc.density(wo)).sum::<DVec3>();
             let mut sums = [DVec3::ZERO; 2];
             let mut squares = DVec3::ZERO;
             for _ in 0..SAMPLES {
-                let lit = chooser.sample(rng.random(), [rng.random(), rng.random()]).expect("there is light");
-                assert!(lit.wo.z > 0.0 && up.dot(lit.wo) > -1e-9);
-                sums[0] += value(lit.wo) * lit.radiance / chooser.pdf(&lit);
+                for index in 0..chooser.samples() {
+                    let lit =
+                        chooser.sample(index, [rng.random(), rng.random(), rng.random()]).expect("there is light");
+                    assert!(lit.wo.z > 0.0 && up.dot(lit.wo) > -1e-9);
+                    sums[0] += value(lit.wo) * lit.radiance / chooser.density(&lit);
+                }
                 // Both lobes as often as they are bright, one sample each.
                 for (color, ltc) in &lobes {
                     let wo = ltc.sample([rng.random(), rng.random()]);

@@ -41,16 +41,16 @@ impl Film {
     pub fn finish(self) -> Picture {
         let Self { size: [width, height], samples, batches, pixels } = self;
         let image = |value: &dyn Fn(&Pixel) -> DVec3| {
-            // Brighter than the file's numbers go is as bright as they go.
-            let greatest = DVec3::splat(f32::MAX.into());
-            let pixels = pixels.iter().map(|pixel| value(pixel).min(greatest).as_vec3().to_array()).collect();
+            let pixels = pixels.iter().map(|pixel| value(pixel).as_vec3().to_array()).collect();
             LinearImage { width, height, pixels }
         };
+        // Brighter than the file's numbers go is as bright as they go.
+        let greatest = DVec3::splat(f32::MAX.into());
         let deviation = |pixel: &Pixel| {
             let scale = if batches > 1 { 1.0 / ((batches - 1) as f64 * samples as f64) } else { f64::NAN };
             (pixel.scatter * scale).map(f64::sqrt)
         };
-        Picture { radiance: image(&|pixel| pixel.mean), errors: image(&deviation), samples, batches }
+        Picture { radiance: image(&|pixel| pixel.mean.min(greatest)), errors: image(&deviation), samples, batches }
     }
 }
 

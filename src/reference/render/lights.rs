@@ -34,6 +34,7 @@ pub(super) struct Lights<'a> {
 /// A part as a point sees it: what of it is above the horizon, in the point's frame.
 pub(super) struct Seen<'a> {
     part: &'a Part,
+    index: usize,
     outline: Outline,
 }
 
@@ -46,6 +47,8 @@ pub(super) struct Lit {
     pub distance: f64,
     /// The emitter's.
     pub instance: usize,
+    /// Which part of all lights.
+    pub part: usize,
 }
 
 impl<'a> Lights<'a> {
@@ -71,11 +74,17 @@ impl<'a> Lights<'a> {
             }
             (outline.len() >= 3).then_some(outline)
         };
-        self.parts.iter().filter_map(|part| seen(part).map(|outline| Seen { part, outline })).collect()
+        let parts = self.parts.iter().enumerate();
+        parts.filter_map(|(index, part)| seen(part).map(|outline| Seen { part, index, outline })).collect()
     }
 }
 
 impl Seen<'_> {
+    /// Which part of all lights.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
     pub fn radiance(&self) -> DVec3 {
         self.part.radiance
     }
@@ -103,7 +112,7 @@ impl Seen<'_> {
         let normal: DVec3 = edges(&self.outline).map(|(p, q)| (p - self.outline[0]).cross(q - self.outline[0])).sum();
         let distance = normal.dot(self.outline[0]) / normal.dot(wo);
         let distance = if distance.is_finite() { distance.abs() } else { self.outline[0].length() };
-        Lit { wo, radiance: self.part.radiance, distance, instance: self.part.instance }
+        Lit { wo, radiance: self.part.radiance, distance, instance: self.part.instance, part: self.index }
     }
 
     /// What a direction meets of it.

@@ -19,6 +19,8 @@ use crate::reference::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
 use crate::table::SpecularLtc;
 
+/// Parts of lights that are looked at one by one where the camera looks; of more, and behind, some are chosen.
+const LIGHTS_MOST: usize = 16;
 /// What lies behind blended surfaces that leave less of it is not looked at.
 const LEAST_SEEN: f64 = 1e-4;
 /// Blended surfaces, and holes, that a path goes through at most.
@@ -75,7 +77,8 @@ impl Light<'_> {
             if surface.unlit {
                 break;
             }
-            let (reflected, next) = self.reflected(&surface, bounce < self.options.max_bounces, sample);
+            let most = if bounce == 0 { LIGHTS_MOST } else { 1 };
+            let (reflected, next) = self.reflected(&surface, bounce < self.options.max_bounces, most, sample);
             radiance += throughput * reflected;
             let Some((ray, weight)) = next else { break };
             throughput *= weight;
@@ -118,22 +121,19 @@ impl Light<'_> {
         None
     }
 
-    /// Light that a surface scatters to the view, and, where the path goes `on`, its next ray with what it brings.
-    fn reflected(&self, surface: &Surface, on: bool, sample: &mut Sample) -> (DVec3, Onward) {
+    /// Light that a surface scatters to the view, and, where the path goes `on`, its next ray with what it brings. `most` directions are
+    /// looked in for lights.
+    fn reflected(&self, surface: &Surface, on: bool, most: usize, sample: &mut Sample) -> (DVec3, Onward) {
         let lobes = Lobes::new(surface, &self.models, self.settings.lobes);
-        let chooser = self.chooser(surface, &lobes);
-        let numbers = [sample.uniforms.next(), sample.uniforms.next()];
+        let chooser = self.chooser(surface, &lobes, most);
         match surface.sheen.filter(is_walked) {
-            None => self.scattered(surface, (&lobes, &chooser), on, numbers, &mut sample.rays),
-            Some(at) => {
-                let stack = Stack::new(self, surface, &at, (&lobes, &chooser));
-                stack.reflected(on, numbers, &mut sample.uniforms.stream(), &mut sample.rays)
-            }
+            None => self.scattered(surface, (&lobes, &chooser), on, sample),
+            Some(at) => Stack::new(self, surface, &at, (&lobes, &chooser)).reflected(on, sample),
         }
     }
 
     /// The lights that a surface sees, by its lobes; a layer that is walked through by the transformed cosine that resembles it.
-    fn chooser(&self, surface: &Surface, lobes: &Lobes) -> Chooser<'_> {
+    fn chooser(&self, surface: &Surface, lobes: &Lobes, most: usize) -> Chooser<'_> {
         let mut sampled: Sampled = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
         let others = lobes.lobes.iter().filter(|lobe| !lobe.is_near);
         sampled.extend(others.map(|lobe| (lobe.albedo(surface.mu()), COSINE)));
@@ -142,7 +142,8 @@ impl Light<'_> {
             sampled.push((at.color * r, SpecularLtc { a, b, c: a }));
         }
         sampled.retain(|(color, ltc)| color.max_element() > 0.0 && ltc.a > 0.0);
-        Chooser::new(sampled, self.lights.seen(surface.p_world, surface.world_from_local.transpose(), surface.up))
+        let seen = self.lights.seen(surface.p_world, surface.world_from_local.transpose(), surface.up);
+        Chooser::new(sampled, seen, most)
     }
 
     /// Light scattered by lobes that are functions.
@@ -151,47 +152,59 @@ impl Light<'_> {
         surface: &Surface,
         (lobes, chooser): (&Lobes, &Chooser),
         on: bool,
-        [first, second]: [[f64; 4]; 2],
-        rays: &mut u64,
+        sample: &mut Sample,
     ) -> (DVec3, Onward) {
-        let mut sum = DVec3::ZERO;
         if lobes.lobes.is_empty() {
-            return (sum, None);
+            return (DVec3::ZERO, None);
         }
-        let lobes_weight = lobes.weight();
-        if let Some(lit) = chooser.sample(first[0], [first[1], first[2]]) {
-            let density = chooser.pdf(&lit) + if lobes_weight > 0.0 { lobes_weight * lobes.pdf(lit.wo) } else { 0.0 };
-            let value = lobes.evaluate(lit.wo) * lit.radiance / density;
-            sum += value * self.visible(surface, &lit, rays);
-        }
-        for light in self.lights.punctual {
-            if let Some((wo, irradiance)) = self.punctual(light, surface, rays) {
-                sum += lobes.evaluate(wo) * irradiance;
-            }
-        }
+        let weight = lobes.weight();
+        let mut sum = self.from_lights(surface, (lobes, chooser), weight, sample);
         let has_ambient = self.settings.ambient != Vec3::ZERO;
         if has_ambient && !self.options.shadows {
             sum += self.settings.ambient.as_dvec3() * surface.occlusion * lobes.albedo();
         }
-        let is_needed = lobes_weight > 0.0 || on || (has_ambient && self.options.shadows);
-        let Some(wo) = is_needed.then(|| lobes.sample(second[0], [second[1], second[2]])).flatten() else {
-            return (sum, None);
-        };
+        let is_needed = weight > 0.0 || on || (has_ambient && self.options.shadows);
+        let [choice, one, other, _] = sample.uniforms.next();
+        let Some(wo) = is_needed.then(|| lobes.sample(choice, [one, other])).flatten() else { return (sum, None) };
         let (value, pdf) = (lobes.evaluate(wo), lobes.pdf(wo));
         if !(pdf > 0.0 && value.max_element() > 0.0 && surface.up.dot(wo) > 0.0) {
             return (sum, None);
         }
-        if lobes_weight > 0.0 {
+        if weight > 0.0 {
             for lit in chooser.along(wo) {
-                let density = chooser.pdf(&lit) + lobes_weight * pdf;
-                sum += lobes_weight * value * lit.radiance / density * self.visible(surface, &lit, rays);
+                let density = chooser.density(&lit) + weight * pdf;
+                sum += weight * value * lit.radiance / density * self.visible(surface, &lit, &mut sample.rays);
             }
         }
-        let weight = value / pdf;
+        let brought = value / pdf;
         if has_ambient && self.options.shadows {
-            sum += weight * self.environment(surface, wo, rays);
+            sum += brought * self.environment(surface, wo, &mut sample.rays);
         }
-        (sum, on.then(|| (shadow_ray(surface.origin, surface.world_from_local, wo), weight)))
+        (sum, on.then(|| (shadow_ray(surface.origin, surface.world_from_local, wo), brought)))
+    }
+
+    /// Light that is looked for on the lights; a direction found in the lobes weighs `weight`.
+    fn from_lights(
+        &self,
+        surface: &Surface,
+        (lobes, chooser): (&Lobes, &Chooser),
+        weight: f64,
+        sample: &mut Sample,
+    ) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for index in 0..chooser.samples() {
+            let [choice, one, other, _] = sample.uniforms.next();
+            let Some(lit) = chooser.sample(index, [choice, one, other]) else { continue };
+            let by_lobes = if weight > 0.0 { weight * lobes.pdf(lit.wo) } else { 0.0 };
+            let value = lobes.evaluate(lit.wo) * lit.radiance / (chooser.density(&lit) + by_lobes);
+            sum += value * self.visible(surface, &lit, &mut sample.rays);
+        }
+        for light in self.lights.punctual {
+            if let Some((wo, irradiance)) = self.punctual(light, surface, &mut sample.rays) {
+                sum += lobes.evaluate(wo) * irradiance;
+            }
+        }
+        sum
     }
 
     /// Radiance of the environment from a direction, as much of it as comes through.
@@ -225,7 +238,7 @@ impl Light<'_> {
         if wo.z <= 0.0 || surface.up.dot(wo) <= 0.0 || irradiance == DVec3::ZERO {
             return None;
         }
-        let lit = Lit { wo, radiance: irradiance, distance, instance: usize::MAX };
+        let lit = Lit { wo, radiance: irradiance, distance, instance: usize::MAX, part: usize::MAX };
         Some((wo, irradiance * self.visible(surface, &lit, rays)))
     }
 }

@@ -11,7 +11,7 @@ use rand::Rng;
 use super::chooser::Chooser;
 use super::lights::shadow_ray;
 use super::lobes::Lobes;
-use super::path::{Light, Onward};
+use super::path::{Light, Onward, Sample};
 use super::surface::{SheenAt, Surface};
 use crate::math::frame::AzimuthFrame;
 use crate::math::warp::uniform;
@@ -45,8 +45,8 @@ pub(super) struct Stack<'a, 'b> {
 struct Sent {
     wo: DVec3,
     radiance: DVec3,
-    /// Density per steradian; none of lights without extent, which no path finds by itself.
-    pdf: Option<f64>,
+    /// How many such are expected per steradian; none of lights without extent, which no path finds by itself.
+    density: Option<f64>,
 }
 
 /// A path on its way.
@@ -69,7 +69,7 @@ impl Walker {
     /// Light that the last scattering sends to the view: `value` scattered, of density `pdf`.
     fn add(&mut self, sent: &Sent, value: DVec3, pdf: f64) {
         if self.counts {
-            let weight = sent.pdf.map_or(1.0, |own| 1.0 / (own + pdf));
+            let weight = sent.density.map_or(1.0, |own| 1.0 / (own + pdf));
             self.sum += self.throughput * value * sent.radiance * weight;
         }
     }
@@ -99,41 +99,46 @@ impl<'a, 'b> Stack<'a, 'b> {
     }
 
     /// Light that comes to the view, and, where the path goes `on`, its next ray with what it brings.
-    pub fn reflected(&self, on: bool, numbers: [[f64; 4]; 2], rng: &mut impl Rng, rays: &mut u64) -> (DVec3, Onward) {
+    pub fn reflected(&self, on: bool, sample: &mut Sample) -> (DVec3, Onward) {
+        let rng = &mut sample.uniforms.stream();
         let wanted = self.light.settings.lobes;
         if self.has_base {
             if uniform(rng) < self.weight {
-                return self.walked(on, numbers[0], rng, rays);
+                return self.walked(on, rng, sample);
             }
             let bare = Lobes::bare(self.surface, &self.light.models, wanted, self.surface.mu());
-            return self.light.scattered(self.surface, (&bare, self.chooser), on, numbers, rays);
+            return self.light.scattered(self.surface, (&bare, self.chooser), on, sample);
         }
         // The base lies below by another rule; chance has it with which of both the path goes on.
-        let (below, base_on) = self.light.scattered(self.surface, (self.lobes, self.chooser), on, numbers, rays);
+        let (below, base_on) = self.light.scattered(self.surface, (self.lobes, self.chooser), on, sample);
         if !wanted.sheen {
             return (below, base_on);
         }
-        let (above, sheen_on) = self.walked(on, numbers[0], rng, rays);
+        let (above, sheen_on) = self.walked(on, rng, sample);
         let chosen = if uniform(rng) < 0.5 { base_on } else { sheen_on };
         (below + above, chosen.map(|(ray, weight)| (ray, 2.0 * weight)))
     }
 
-    /// What arrives: from a direction that was chosen on the lights, and from the lights without extent.
-    fn sent(&self, numbers: [f64; 4], rays: &mut u64) -> Vec<Sent> {
-        let lit = self.chooser.sample(numbers[0], [numbers[1], numbers[2]]).map(|lit| Sent {
-            wo: lit.wo,
-            radiance: lit.radiance * self.light.visible(self.surface, &lit, rays),
-            pdf: Some(self.chooser.pdf(&lit)),
-        });
-        let punctual = self.light.lights.punctual.iter();
-        let punctual = punctual.filter_map(|light| self.light.punctual(light, self.surface, rays));
-        let punctual = punctual.map(|(wo, radiance)| Sent { wo, radiance, pdf: None });
-        lit.into_iter().chain(punctual.collect::<Vec<_>>()).collect()
+    /// What arrives: from directions that are chosen on the lights, and from the lights without extent.
+    fn sent(&self, sample: &mut Sample) -> Vec<Sent> {
+        let mut sent = Vec::with_capacity(self.chooser.samples() + self.light.lights.punctual.len());
+        for index in 0..self.chooser.samples() {
+            let [choice, one, other, _] = sample.uniforms.next();
+            let Some(lit) = self.chooser.sample(index, [choice, one, other]) else { continue };
+            let radiance = lit.radiance * self.light.visible(self.surface, &lit, &mut sample.rays);
+            sent.push(Sent { wo: lit.wo, radiance, density: Some(self.chooser.density(&lit)) });
+        }
+        for light in self.light.lights.punctual {
+            if let Some((wo, radiance)) = self.light.punctual(light, self.surface, &mut sample.rays) {
+                sent.push(Sent { wo, radiance, density: None });
+            }
+        }
+        sent
     }
 
     /// Follows one path until it leaves.
-    fn walked(&self, on: bool, numbers: [f64; 4], rng: &mut impl Rng, rays: &mut u64) -> (DVec3, Onward) {
-        let sent = self.sent(numbers, rays);
+    fn walked(&self, on: bool, rng: &mut impl Rng, sample: &mut Sample) -> (DVec3, Onward) {
+        let sent = self.sent(sample);
         let mut walker = Walker {
             depth: 0.0,
             along: -self.surface.wi,
@@ -162,7 +167,7 @@ impl<'a, 'b> Stack<'a, 'b> {
                     }
                 }
                 Flight::Below => return (walker.sum, None),
-                Flight::Above => return self.leave(walker, on, rays),
+                Flight::Above => return self.leave(walker, on, &mut sample.rays),
             }
             if !walker.survives(rng) {
                 return (walker.sum, None);
@@ -216,7 +221,7 @@ impl<'a, 'b> Stack<'a, 'b> {
         }
         let pdf = walker.pdf * self.fibres.passing(walker.depth, wo);
         for lit in self.chooser.along(wo) {
-            let weight = pdf / (self.chooser.pdf(&lit) + pdf);
+            let weight = pdf / (self.chooser.density(&lit) + pdf);
             walker.sum += walker.throughput * lit.radiance * weight * self.light.visible(self.surface, &lit, rays);
         }
         if self.light.settings.ambient != glam::Vec3::ZERO {

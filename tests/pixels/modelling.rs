@@ -1,0 +1,107 @@
+//! How far real time is from the layer that it stands for: the fit from the slab, and the layering rules from light that goes through
+//! both layers. The README quotes the figures.
+
+use glam::{Mat4, Vec3};
+use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
+use velour::scene::{Layering, Lobes, Material, Overrides, Settings, Sheen, SheenModel};
+use velour::table::LtcTable;
+
+use super::stage::{Stage, Thing, facing, glow, looking, plain};
+
+const SIZE: [u32; 2] = [48, 48];
+
+/// Of radius 1, smooth.
+fn ball(material: Material) -> Thing {
+    const ROWS: u32 = 32;
+    const COLUMNS: u32 = 64;
+    let at = |row: u32, column: u32| {
+        let polar = std::f32::consts::PI * row as f32 / ROWS as f32;
+        let azimuth = std::f32::consts::TAU * column as f32 / COLUMNS as f32;
+        Vec3::new(polar.sin() * azimuth.sin(), polar.cos(), polar.sin() * azimuth.cos())
+    };
+    let positions: Vec<Vec3> = (0..=ROWS).flat_map(|row| (0..=COLUMNS).map(move |column| at(row, column))).collect();
+    let cell = |row: u32, column: u32| {
+        let (a, b) = (row * (COLUMNS + 1) + column, (row + 1) * (COLUMNS + 1) + column);
+        [[a, b, b + 1], [a, b + 1, a + 1]]
+    };
+    Thing {
+        normals: positions.clone(),
+        positions,
+        triangles: (0..ROWS).flat_map(|row| (0..COLUMNS).flat_map(move |column| cell(row, column))).collect(),
+        contours: Vec::new(),
+        world_from_mesh: Mat4::IDENTITY,
+        material,
+    }
+}
+
+/// A ball under a window, 60 degrees from the view.
+fn pictured(base: &Material, alpha: f32, overrides: Overrides, lobes: Lobes, samples: u64) -> Picture {
+    let material = Material { sheen: Some(Sheen::new(Vec3::ONE, alpha)), ..base.clone() };
+    let window = Thing::rectangle([1.2, 1.2], glow([4.0; 3])).placed(facing([3.46, 0.0, 2.0], [0.0; 3]));
+    let scene = Stage::new(vec![ball(material), window], looking([0.0, 0.0, 3.5], [0.0; 3])).scene();
+    let settings = Settings { overrides, lobes, lights_visible: false, ..Settings::default() };
+    let options = Options { max_bounces: 0, shadows: false, filter: Filter::Centre, specular: SpecularModel::Ggx };
+    let reference = Reference::new(&scene, &settings, &LtcTable::embedded(), options).unwrap();
+    reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
+}
+
+/// Of all light in the second picture: how much is elsewhere in the first, and how much there is more.
+fn apart(found: &Picture, truth: &Picture) -> [f64; 2] {
+    let (mut off, mut more, mut all) = (0.0, 0.0, 0.0);
+    for (found, truth) in found.radiance.pixels.iter().zip(&truth.radiance.pixels) {
+        let difference = f64::from(found[1]) - f64::from(truth[1]);
+        (off, more, all) = (off + difference.abs(), more + difference, all + f64::from(truth[1]));
+    }
+    [off / all, more / all]
+}
+
+/// The relative mean absolute error of the fit, by alpha.
+const FIT: [(f32, f64); 5] = [(0.1, 0.0), (0.25, 0.0), (0.5, 0.0), (0.75, 0.0), (1.0, 0.0)];
+
+#[test]
+fn the_fit_is_as_far_from_the_slab_as_is_said() {
+    let sheen = Lobes { sheen: true, diffuse: false, specular: false, emission: false };
+    let of = |alpha, model| {
+        let overrides = Overrides { sheen_model: Some(model), ..Overrides::default() };
+        pictured(&plain(), alpha, overrides, sheen, 256)
+    };
+    let readme = include_str!("../../README.md");
+    for (alpha, said) in FIT {
+        let [off, more] = apart(&of(alpha, SheenModel::Ltc), &of(alpha, SheenModel::Slab));
+        println!("alpha {alpha}: {:.1}% of the light is elsewhere, {:+.1}% more", 100.0 * off, 100.0 * more);
+        // What noise leaves of the figure.
+        assert!((off / said - 1.0).abs() < 0.1, "alpha {alpha}: {off} is not {said}");
+        let quoted = format!("alpha {alpha}: {:.1}%", 100.0 * said);
+        assert!(readme.contains(&quoted), "README.md does not say '{quoted}'");
+    }
+}
+
+#[test]
+fn layering_rules_are_as_far_from_the_walk_as_is_said() {
+    let grey = Material { base_color: Vec3::splat(0.5), ..plain() };
+    let white = Material { base_color: Vec3::splat(0.9), ..plain() };
+    let metal = Material { metallic: 1.0, roughness: 0.5, base_color: Vec3::splat(0.9), ..plain() };
+    let lobes = Lobes::default();
+    let mut greatest = [0.0_f64; 4];
+    for (name, base) in [("grey", grey), ("white", white), ("metal", metal)] {
+        for alpha in [0.25, 0.5, 1.0] {
+            let of = |layering, samples| {
+                let overrides =
+                    Overrides { sheen_model: Some(SheenModel::Slab), layering: Some(layering), ..Overrides::default() };
+                pictured(&base, alpha, overrides, lobes, samples)
+            };
+            let truth = of(Layering::Walk, 512);
+            let rules = [Layering::Gltf, Layering::OpenPbr, Layering::Reciprocal, Layering::None];
+            let more = rules.map(|rule| apart(&of(rule, 64), &truth)[1]);
+            let [gltf, openpbr, reciprocal, none] = more.map(|more| format!("{:+.1}%", 100.0 * more));
+            println!("{name}, alpha {alpha}: gltf {gltf}, openpbr {openpbr}, reciprocal {reciprocal}, none {none}");
+            for (greatest, more) in greatest.iter_mut().zip(more) {
+                *greatest = greatest.max(more.abs());
+            }
+        }
+    }
+    let [gltf, openpbr, reciprocal, none] = greatest;
+    // Of one colour and full weight the first two rules are one.
+    assert!((gltf - openpbr).abs() < 1e-3, "{gltf} {openpbr}");
+    assert!(reciprocal < none && gltf < none, "{greatest:?}");
+}
