@@ -25,8 +25,8 @@ pub fn figures(arguments: &Figures) -> Result<(), Failure> {
     paths.extend(plates.iter().flat_map(|plate| beside(&plate.name)));
     paths.extend([PAGE, figures::fibres::NAME, "fibres.json"].map(|name| folder.join(name)));
     prepare(folder, &paths)?;
-    listen();
     let drawn = drawn(folder)?;
+    listen();
     for plate in &plates {
         let [picture, settings] = beside(&plate.name);
         let wanted = described(&plate.settings);
@@ -40,7 +40,11 @@ pub fn figures(arguments: &Figures) -> Result<(), Failure> {
                 !ENDING.load(Ordering::Relaxed)
             })
         });
-        let bytes = image.map_err(Failure::input)?.to_png().map_err(Failure::input)?;
+        let image = image.map_err(|error| match error {
+            plates::PlateError::Interrupted => Failure::check(error),
+            _ => Failure::input(error),
+        });
+        let bytes = image?.to_png().map_err(Failure::input)?;
         // Settings come last: a picture without them is made again.
         write_atomically(&picture, &bytes).map_err(Failure::input)?;
         write_atomically(&settings, wanted.as_bytes()).map_err(Failure::input)?;

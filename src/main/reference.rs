@@ -21,7 +21,8 @@ use {
     velour::table::LtcTable,
 };
 
-/// How much is done where nobody said: with the lobes of real time, whose light is found exactly, it only has to smooth edges.
+/// How much is done where nobody said: of the fit light is found exactly, and only edges are to be smoothed; earlier models and the reciprocal rule
+/// keep some percent of noise.
 #[cfg(feature = "gpu")]
 const PLAIN: Effort = Effort { samples: 16, seed: 0 };
 

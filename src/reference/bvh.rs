@@ -1,6 +1,6 @@
 //! Rays against many things: a bounding volume hierarchy of `f32` boxes around things that are met in `f64`.
 //!
-//! Boxes are those of the scene scaled into a cube of side 2, each padded by what `f32` may have rounded away, so that no thing is
+//! Boxes are those of the scene scaled into a cube of twice [`SPAN`], each padded by what `f32` may have rounded away, so that no thing is
 //! lost: the hierarchy says where to look, the things themselves say what is met.
 
 use std::ops::ControlFlow;
@@ -13,9 +13,11 @@ use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// Room around boxes, in units of half the scene: sixteen roundings of a coordinate, and those of a ray that is a few units long.
-const PADDING: f32 = 2e-6;
-/// Room behind a hit, as a share of its distance and in half scenes, in which boxes are still looked into.
+/// Half the scene in the tree's units: the tree passes over boxes that a ray leaves within 1e-4 of where it starts.
+const SPAN: f64 = (1 << 20) as f64;
+/// Room around boxes: sixteen roundings of a coordinate, and those of a ray that is a few times as long as the scene.
+const PADDING: f32 = 2e-6 * SPAN as f32;
+/// Room behind a hit in which boxes are still looked into, as a share of its distance and in half scenes.
 const BEHIND: f64 = 1e-5;
 
 /// A half line.
@@ -54,12 +56,13 @@ pub struct Meeting<T> {
 }
 
 /// A hierarchy over primitives.
+#[derive(Clone)]
 pub struct Bvh<P> {
     tree: CwBvh,
     /// In the tree's order.
     primitives: Vec<P>,
     center: DVec3,
-    /// Half the greatest side of the box around all.
+    /// The tree's unit: of half the greatest side of the box around all, one of [`SPAN`].
     scale: f64,
 }
 
@@ -87,7 +90,7 @@ impl<P: Primitive> Bvh<P> {
         let (center, scale) = if bounded.is_empty() {
             (DVec3::ZERO, 1.0)
         } else {
-            (0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low).max_element().max(f64::MIN_POSITIVE.sqrt()))
+            (0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low).max_element().max(f64::MIN_POSITIVE.sqrt()) / SPAN)
         };
         let scaled = |corner: DVec3| Vec3A::from(((corner - center) / scale).as_vec3());
         let boxes: Vec<Boxed> = bounded
@@ -154,8 +157,8 @@ impl<P: Primitive> Bvh<P> {
 
     /// The ray in the tree's scale from where it enters a sphere around all, and the distance to there; none where it misses.
     fn unit_ray(&self, ray: &Ray, far: f64) -> Option<(f64, obvhs::ray::Ray)> {
-        // The cube of side 2 lies in a sphere of radius sqrt(3).
-        const RADIUS_SQUARE: f64 = 3.0001;
+        // The cube lies in a sphere of sqrt(3) times half its side.
+        const RADIUS_SQUARE: f64 = 3.0001 * SPAN * SPAN;
         if self.primitives.is_empty() {
             return None;
         }
@@ -176,7 +179,7 @@ impl<P: Primitive> Bvh<P> {
 
     /// A length in the tree's scale, and some.
     fn shortened(&self, length: f64) -> f32 {
-        ((length / self.scale).abs() * (1.0 + BEHIND) + BEHIND) as f32
+        ((length / self.scale).abs() * (1.0 + BEHIND) + BEHIND * SPAN) as f32
     }
 }
 
@@ -230,7 +233,8 @@ mod tests {
                 3 => DVec3::new(1e-9, -1.0, -1e-12).normalize(),
                 _ => unit_sphere(&mut rng),
             };
-            let distance = [0.3, 3.0, 1e4][k % 3];
+            // From beside the target too.
+            let distance = [0.3, 3.0, 1e4, 1e-3, 1e-5, 1e-7][k % 6];
             rays.push(Ray { origin: target - scale * distance * direction, direction });
         }
         rays

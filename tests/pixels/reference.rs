@@ -134,10 +134,21 @@ fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
     assert_eq!(early.relative_error(), None);
     let later = render(4096, 4 * 5 + 1);
     assert!(later.samples > 16 && later.samples < 4096 && later.samples % 16 == 0, "{}", later.samples);
-    // What is there is what fewer samples give.
-    assert_eq!(later.radiance.pixels.len(), 800);
+    // What is there is what as many samples give that are asked for.
+    assert_eq!(later.radiance, whole_batches(&reference, &scene, later.samples));
     let whole = render(100, u64::MAX);
     assert_eq!((whole.samples, whole.batches), (100, 25));
+}
+
+/// The picture of the first samples of 4096.
+fn whole_batches(reference: &Reference, scene: &Scene, samples: u64) -> LinearImage {
+    let tiles_a_batch = (40 * 20_u64).div_ceil(256);
+    let batches = samples / 16;
+    let effort = Effort { samples: 4096, seed: 0 };
+    let stop_after = batches * tiles_a_batch;
+    let picture = reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap();
+    assert_eq!(picture.samples, samples);
+    picture.radiance
 }
 
 /// The estimated errors are those that other seeds show.
@@ -293,10 +304,46 @@ fn microfacets_are_near_their_fit() {
     let [near, truth] = [&fit, &facets].map(|picture| mean(&picture.radiance));
     assert!((near / truth - 1.0).abs() < 0.15, "{near} {truth}");
     assert!(differences(&fit.radiance, &facets).is_err());
+    // Of all around as much comes back as the base's colour at most, and most of it.
+    stage.things.truncate(1);
     let furnace = Settings { ambient: Vec3::ONE, ..settings };
-    let found = of(SpecularModel::Ggx, &furnace).radiance.pixels;
+    let reference = traced(&stage.scene(), &table, &furnace, Options { specular: SpecularModel::Ggx, ..REAL_TIME }, 16);
     let base = Vec3::new(0.3, 0.6, 0.9);
-    let lit = found.iter().filter(|pixel| pixel[0] > 0.0).map(|pixel| Vec3::from(*pixel));
-    // The window's light comes on top.
-    assert!(lit.clone().count() > 1000 && lit.clone().all(|pixel| pixel.cmpge(0.9 * base).all()));
+    let lit = reference.radiance.pixels.iter().filter(|pixel| pixel[0] > 0.0).map(|pixel| Vec3::from(*pixel));
+    let fits = |pixel: Vec3| pixel.cmpge(0.9 * base).all() && pixel.cmple(1.01 * base.lerp(Vec3::ONE, 0.3)).all();
+    assert!(lit.clone().count() > 1000 && lit.clone().all(fits));
+}
+
+/// A ball of few facets beside its light: what is round stands in no light of its own, and the light does not either.
+#[test]
+fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
+    let (table, settings) = (LtcTable::embedded(), Settings::default());
+    for columns in [12, 48] {
+        for distance in [1.1, 2.0, 5.0] {
+            let ball = super::modelling::ball(velvet([0.9, 0.5, 0.2], 0.5), columns);
+            let window =
+                Thing::rectangle([0.3, 0.3], glow([4.0, 3.0, 2.0])).placed(facing([distance, 0.2, 0.1], ORIGIN));
+            let scene = Stage::new(vec![ball, window], looking([2.5, 0.5, 3.5], ORIGIN)).scene();
+            let of = |shadows| traced(&scene, &table, &settings, Options { shadows, ..REAL_TIME }, 16);
+            let (with, without) = (of(true), of(false));
+            let [with, without] = [&with, &without].map(|picture| mean(&picture.radiance));
+            assert!((with / without - 1.0).abs() < 0.02, "{columns} columns, {distance} m: {with} {without}");
+        }
+    }
+}
+
+/// Where the shading normal turns away from the view, as at coarse silhouettes, the walk scatters as the slab does.
+#[test]
+fn the_walk_goes_on_where_the_view_is_along_the_surface() {
+    let table = LtcTable::embedded();
+    let mut stage = stage(0.5);
+    // Normals that lean away from the view by more than a right angle.
+    stage.things[0].normals = vec![Vec3::new(0.0, 0.9, 0.4).normalize(); 4];
+    let scene = stage.scene();
+    let of = |model| {
+        let settings = with_model(model);
+        mean(&traced(&scene, &table, &settings, REAL_TIME, 256).radiance)
+    };
+    let (walk, slab) = (of(SheenModel::Walk), of(SheenModel::Slab));
+    assert!(slab > 1e-4 && (walk / slab - 1.0).abs() < 0.05, "{walk} {slab}");
 }

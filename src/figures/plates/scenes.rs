@@ -2,7 +2,7 @@
 
 use super::{Plate, Shot};
 use crate::reference::Options;
-use crate::scene::{Layering, Overrides, Scene, SceneError, Settings, gltf};
+use crate::scene::{Layering, Overrides, Scene, Settings, gltf};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ fn cloth(name: &str, alpha: Option<f32>) -> Plate {
     let says = alpha.map_or("no sheen".to_owned(), |alpha| format!("alpha {alpha}, C_sheen {COLOR}, layering gltf"));
     let make = move |progress: &super::Progress| {
         let scene = gltf::from_slice(DRAPE, "drape.glb")?;
-        let velvet = named(&scene, "velvet")?;
+        let velvet = named(&scene, "velvet");
         let overrides = Overrides {
             alpha: Some(alpha.unwrap_or(1.0)),
             sheen_color: Some(if alpha.is_some() { COLOR } else { Vec3::ZERO }),
@@ -47,7 +47,7 @@ fn dust() -> Plate {
     const ALPHA: f32 = 0.85;
     let make = |progress: &super::Progress| {
         let scene = gltf::from_slice(DUST, "dust.glb")?;
-        let dusty = named(&scene, "dusty")?;
+        let dusty = named(&scene, "dusty");
         let overrides = Overrides { alpha: Some(ALPHA), ..Overrides::default() };
         let settings = Settings { material_overrides: BTreeMap::from([(dusty, overrides)]), ..Settings::default() };
         shot().take(&scene, &settings, progress)
@@ -57,8 +57,8 @@ fn dust() -> Plate {
     Plate { name: "dust".to_owned(), settings, make: Box::new(make) }
 }
 
-/// Index of the material.
-fn named(scene: &Scene, name: &str) -> Result<usize, SceneError> {
+/// Index of the asset's material.
+fn named(scene: &Scene, name: &str) -> usize {
     let found = scene.materials.iter().position(|material| material.name == name);
-    Ok(found.unwrap_or_else(|| panic!("the asset has a material {name}")))
+    found.unwrap_or_else(|| panic!("the asset has a material {name}"))
 }

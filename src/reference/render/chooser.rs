@@ -29,7 +29,7 @@ struct Part<'a> {
     /// What each lobe is worth there.
     by_lobe: SmallVec<[f64; 4]>,
     worth: f64,
-    /// The sum of the parts' worth up to this one, over that of all.
+    /// The sum of the parts' worth up to this one, over that of all, where there is any.
     until: f64,
 }
 
@@ -44,9 +44,9 @@ impl<'a> Chooser<'a> {
             sum += worth;
             Part { seen, by_lobe, worth, until: sum }
         };
-        let mut parts: SmallVec<[Part; 4]> = seen.into_iter().map(part).filter(|part| part.worth > 0.0).collect();
+        let mut parts: SmallVec<[Part; 4]> = seen.into_iter().map(part).collect();
         parts.iter_mut().for_each(|part| part.until /= sum);
-        let samples = parts.len().min(most);
+        let samples = if sum > 0.0 { parts.len().min(most) } else { 0 };
         Self { lobes, parts, worth: sum, samples }
     }
 
@@ -55,7 +55,7 @@ impl<'a> Chooser<'a> {
         self.samples
     }
 
-    /// The lit direction `index` of as many, from three uniform numbers in \[0, 1).
+    /// The lit direction `index` of as many, from three uniform numbers in \[0, 1); none on a part that sends nothing.
     pub fn sample(&self, index: usize, [choice, uniforms @ ..]: [f64; 3]) -> Option<Lit> {
         let (part, choice) = if self.samples == self.parts.len() {
             (self.parts.get(index)?, choice)
@@ -78,12 +78,16 @@ impl<'a> Chooser<'a> {
 
     /// How many of the samples are expected in a direction on that part of a light, per steradian.
     pub fn density(&self, lit: &Lit) -> f64 {
+        if self.samples == 0 {
+            return 0.0;
+        }
         let density = |(color, ltc): &(DVec3, SpecularLtc)| worth(*color, lit.radiance) * ltc.density(lit.wo);
         let found: f64 = self.lobes.iter().map(density).sum();
         if self.samples < self.parts.len() {
             return self.samples as f64 * found / self.worth;
         }
-        self.parts.iter().find(|part| part.seen.index() == lit.part).map_or(0.0, |part| found / part.worth)
+        let part = self.parts.iter().find(|part| part.seen.index() == lit.part && part.worth > 0.0);
+        part.map_or(0.0, |part| found / part.worth)
     }
 
     /// What a direction meets of the lights, one behind the other.

@@ -45,12 +45,17 @@ impl Film {
             LinearImage { width, height, pixels }
         };
         // Brighter than the file's numbers go is as bright as they go.
-        let greatest = DVec3::splat(f32::MAX.into());
+        let greatest = f64::from(f32::MAX);
         let deviation = |pixel: &Pixel| {
             let scale = if batches > 1 { 1.0 / ((batches - 1) as f64 * samples as f64) } else { f64::NAN };
             (pixel.scatter * scale).map(f64::sqrt)
         };
-        Picture { radiance: image(&|pixel| pixel.mean.min(greatest)), errors: image(&deviation), samples, batches }
+        Picture {
+            radiance: image(&|pixel| pixel.mean.map(|value| if value > greatest { greatest } else { value })),
+            errors: image(&deviation),
+            samples,
+            batches,
+        }
     }
 }
 

@@ -23,6 +23,9 @@ pub(super) struct Part {
     two_sided: bool,
     /// Of its emitter.
     instance: usize,
+    /// Of a sphere around it.
+    center: DVec3,
+    radius: f64,
 }
 
 /// All lights of a scene.
@@ -65,6 +68,9 @@ impl<'a> Lights<'a> {
             let height = -part.normal.dot(to_vertex);
             let size = (p_world.abs() + to_vertex.abs()).max_element();
             if height.abs() <= IN_PLANE * size || (height < 0.0 && !part.two_sided) {
+                return None;
+            }
+            if local_from_world.row(2).dot(part.center - p_world) < -part.radius {
                 return None;
             }
             let outline: Outline = part.vertices.iter().map(|vertex| local_from_world * (*vertex - p_world)).collect();
@@ -127,6 +133,8 @@ impl Seen<'_> {
 /// The convex parts of one of a light's polygons.
 fn parts(light: &Light, polygon: &Polygon) -> impl Iterator<Item = Part> {
     polygon.convex_parts().into_iter().map(|vertices| Part {
+        center: middle(&vertices),
+        radius: vertices.iter().map(|vertex| vertex.distance(middle(&vertices))).fold(0.0, f64::max),
         vertices,
         normal: polygon.normal.as_dvec3(),
         radiance: light.radiance.as_dvec3(),
@@ -163,4 +171,8 @@ pub(super) fn shadow_ray(origin: DVec3, world_from_local: DMat3, wo: DVec3) -> R
 /// How much a lobe's colour and a light's radiance are worth together.
 pub(super) fn worth(color: DVec3, radiance: DVec3) -> f64 {
     luminance(color * radiance)
+}
+
+fn middle(vertices: &[DVec3]) -> DVec3 {
+    vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64
 }

@@ -225,18 +225,10 @@ impl<'a> Lobes<'a> {
         wo.filter(|wo| wo.z > 0.0)
     }
 
-    /// The share of light of a uniform environment that is scattered to the view, nothing in its way.
-    pub fn albedo(&self) -> DVec3 {
-        let base = if self.reciprocal.is_some() { self.mean_left() } else { 1.0 };
-        let albedo = |lobe: &Lobe| if lobe.is_base { base * lobe.albedo(self.wi.z) } else { lobe.albedo(self.wi.z) };
-        self.lobes.iter().map(albedo).sum()
-    }
-
-    /// What the reciprocal rule leaves of the base on the average, cosine-weighted.
-    fn mean_left(&self) -> f64 {
-        const NODES: u32 = 64;
-        let node = |k: u32| (f64::from(k) + 0.5) / f64::from(NODES);
-        (0..NODES).map(|k| 2.0 * node(k) * self.left(node(k))).sum::<f64>() / f64::from(NODES)
+    /// The share of light of a uniform environment that is scattered to the view, nothing in its way. Of the reciprocal rule it has no
+    /// closed form.
+    pub fn albedo(&self) -> Option<DVec3> {
+        self.reciprocal.is_none().then(|| self.lobes.iter().map(|lobe| lobe.albedo(self.wi.z)).sum())
     }
 }
 

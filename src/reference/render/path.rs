@@ -22,7 +22,7 @@ use crate::table::SpecularLtc;
 /// Parts of lights that are looked at one by one where the camera looks; of more, and behind, some are chosen.
 const LIGHTS_MOST: usize = 16;
 /// What lies behind blended surfaces that leave less of it is not looked at.
-const LEAST_SEEN: f64 = 1e-4;
+const LEAST_SEEN: f64 = 1e-6;
 /// Blended surfaces, and holes, that a path goes through at most.
 const LAYERS_MOST: usize = 256;
 /// Paths that bring less than this are ended at random.
@@ -70,7 +70,7 @@ impl Light<'_> {
 
     /// Radiance that leaves a surface to the camera.
     fn leaving(&self, surface: Surface, sample: &mut Sample) -> DVec3 {
-        let mut radiance = self.emitted(&surface);
+        let mut radiance = if self.settings.lobes.emission { emitted(&surface) } else { DVec3::ZERO };
         let mut throughput = DVec3::ONE;
         let mut surface = surface;
         for bounce in 0..=self.options.max_bounces {
@@ -85,7 +85,7 @@ impl Light<'_> {
             let Some((instance, met)) = self.met(&ray, sample) else { break };
             surface = met;
             if !self.is_light[instance] {
-                radiance += throughput * self.emitted(&surface);
+                radiance += throughput * emitted(&surface);
             }
             let worth = throughput.max_element();
             if worth < ROULETTE {
@@ -97,11 +97,6 @@ impl Light<'_> {
             }
         }
         radiance
-    }
-
-    fn emitted(&self, surface: &Surface) -> DVec3 {
-        let emitted = if surface.unlit { surface.base_color } else { surface.emission };
-        if self.settings.lobes.emission { emitted } else { DVec3::ZERO }
     }
 
     /// The surface that a path meets next, with its instance; blended ones are there in as many cases as they are opaque.
@@ -160,10 +155,12 @@ impl Light<'_> {
         let weight = lobes.weight();
         let mut sum = self.from_lights(surface, (lobes, chooser), weight, sample);
         let has_ambient = self.settings.ambient != Vec3::ZERO;
-        if has_ambient && !self.options.shadows {
-            sum += self.settings.ambient.as_dvec3() * surface.occlusion * lobes.albedo();
+        let closed = if self.options.shadows { None } else { lobes.albedo() };
+        if let Some(albedo) = closed.filter(|_| has_ambient) {
+            sum += self.settings.ambient.as_dvec3() * surface.occlusion * albedo;
         }
-        let is_needed = weight > 0.0 || on || (has_ambient && self.options.shadows);
+        let looks_around = has_ambient && closed.is_none();
+        let is_needed = weight > 0.0 || on || looks_around;
         let [choice, one, other, _] = sample.uniforms.next();
         let Some(wo) = is_needed.then(|| lobes.sample(choice, [one, other])).flatten() else { return (sum, None) };
         let (value, pdf) = (lobes.evaluate(wo), lobes.pdf(wo));
@@ -177,7 +174,7 @@ impl Light<'_> {
             }
         }
         let brought = value / pdf;
-        if has_ambient && self.options.shadows {
+        if looks_around {
             sum += brought * self.environment(surface, wo, &mut sample.rays);
         }
         (sum, on.then(|| (shadow_ray(surface.origin, surface.world_from_local, wo), brought)))
@@ -224,10 +221,17 @@ impl Light<'_> {
             return 1.0;
         }
         *rays += 1;
-        let ray = shadow_ray(surface.origin, surface.world_from_local, lit.wo);
+        let mut ray = shadow_ray(surface.origin, surface.world_from_local, lit.wo);
+        let mut distance = lit.distance;
+        if distance.is_finite() {
+            // To where the light is, from where rays start.
+            let way = surface.p_world + distance * ray.direction - surface.origin;
+            distance = way.length();
+            ray.direction = way.normalize_or(ray.direction);
+        }
         // The light's own surface is a rounding away from where it is found.
-        let range = [self.world.apart, lit.distance * (1.0 - 1e-7)];
-        self.world.passing(&ray, range, (lit.instance, lit.distance * (1.0 - 1e-3)))
+        let range = [self.world.apart, distance * (1.0 - 1e-7)];
+        self.world.passing(&ray, range, (lit.instance, distance * (1.0 - 1e-3)))
     }
 
     /// The direction to a light without extent and what arrives of it across the ray, if it is above the horizon.
@@ -241,4 +245,9 @@ impl Light<'_> {
         let lit = Lit { wo, radiance: irradiance, distance, instance: usize::MAX, part: usize::MAX };
         Some((wo, irradiance * self.visible(surface, &lit, rays)))
     }
+}
+
+/// What a surface sends out by itself; an unlit one its colour.
+fn emitted(surface: &Surface) -> DVec3 {
+    if surface.unlit { surface.base_color } else { surface.emission }
 }

@@ -20,6 +20,8 @@ use crate::scene::{Layering, SheenModel};
 
 /// Paths that bring less than this are ended at random.
 const ROULETTE: f64 = 0.05;
+/// The cosine of views along the surface.
+const GRAZING: f64 = 1e-6;
 
 /// Whether light is followed through this layer.
 pub(super) fn is_walked(at: &SheenAt) -> bool {
@@ -139,9 +141,11 @@ impl<'a, 'b> Stack<'a, 'b> {
     /// Follows one path until it leaves.
     fn walked(&self, on: bool, rng: &mut impl Rng, sample: &mut Sample) -> (DVec3, Onward) {
         let sent = self.sent(sample);
+        // Along the surface no light would ever leave it.
+        let wi = self.surface.wi;
         let mut walker = Walker {
             depth: 0.0,
-            along: -self.surface.wi,
+            along: -DVec3::new(wi.x, wi.y, wi.z.max(GRAZING)).normalize(),
             throughput: DVec3::ONE,
             pdf: 0.0,
             is_tinted: false,
