@@ -31,7 +31,7 @@ pub enum Command {
     /// Renders a scene to a picture
     #[cfg(feature = "gpu")]
     Render(Render),
-    /// Renders a scene by path tracing on the processor: what the real-time picture is held against
+    /// Renders a scene by path tracing on the processor: what the real-time picture is held against; Ctrl-C ends it with what it has
     Reference(Reference),
     /// Makes the tables from nothing and prints their errors
     Fit(Fit),

@@ -42,6 +42,7 @@ impl Inputs {
     pub fn load(arguments: &PictureArgs, timing: &mut Timing) -> Result<Self, Failure> {
         let format = Format::of(&arguments.output).map_err(Failure::input)?;
         check_writable(&arguments.output).map_err(Failure::input)?;
+        check_apart(&arguments.output, &arguments.scene)?;
         let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
             let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
             Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
@@ -76,6 +77,13 @@ impl Inputs {
         }
         Ok(())
     }
+}
+
+/// Refuses to write over the scene.
+pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
+    let same = output.canonicalize().ok().zip(scene.canonicalize().ok()).is_some_and(|(output, scene)| output == scene);
+    let message = || format!("{}: is the scene itself: choose another place", output.display());
+    if same { Err(Failure::input(message())) } else { Ok(()) }
 }
 
 /// A linear picture's file, in memory.

@@ -1,12 +1,13 @@
 //! `velour reference`: pictures by path tracing; and those of `velour render` where there is no device.
 
+use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use serde_json::json;
 use velour::picture::{Format, check_writable, write_atomically};
 use velour::reference::{Effort, Options, Picture, Reference as Renderer, ReferenceError};
 
-use crate::inputs::{Inputs, Timing, encoded};
+use crate::inputs::{Inputs, Timing, check_apart, encoded};
 use crate::interrupt::{ENDING, listen};
 use crate::output::with_progress;
 use crate::render_args::{PictureArgs, Reference};
@@ -29,10 +30,7 @@ const PLAIN: Effort = Effort { samples: 16, seed: 0 };
 pub fn reference(arguments: &Reference) -> Result<(), Failure> {
     let mut timing = Timing::default();
     if let Some(errors) = &arguments.errors {
-        if !matches!(Format::of(errors), Ok(Format::Exr)) {
-            return Err(Failure::input(format!("--errors {}: errors are numbers: use .exr", errors.display())));
-        }
-        check_writable(errors).map_err(Failure::input)?;
+        check_errors(errors, &arguments.picture)?;
     }
     Renderer::check_size(arguments.picture.size).map_err(failure)?;
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
@@ -43,6 +41,24 @@ pub fn reference(arguments: &Reference) -> Result<(), Failure> {
         write_atomically(errors, &bytes).map_err(Failure::input)?;
     }
     finish(&arguments.picture, &inputs, &picture, counts, &mut timing)
+}
+
+/// Whether errors can be written there: numbers, and in no other file's place.
+fn check_errors(errors: &Path, arguments: &PictureArgs) -> Result<(), Failure> {
+    let refused = |what: &str| Err(Failure::input(format!("--errors {}: {what}", errors.display())));
+    if !matches!(Format::of(errors), Ok(Format::Exr)) {
+        return refused("standard errors are floating-point numbers: give a name that ends in .exr");
+    }
+    check_writable(errors).map_err(Failure::input)?;
+    check_apart(errors, &arguments.scene)?;
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some((folder.canonicalize().ok()?, path.file_name()?.to_owned()))
+    };
+    if place(errors) == place(&arguments.output) {
+        return refused("the picture itself goes there: choose another place");
+    }
+    Ok(())
 }
 
 /// What was followed.
@@ -113,6 +129,8 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
         say(json!({
             "output": output.to_string(),
             "size": arguments.size,
+            // No device has drawn it.
+            "adapter": null,
             "samples": picture.samples,
             "samples_wanted": counts.wanted,
             "batches": picture.batches,
@@ -129,8 +147,8 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
     }
     let percent = |share: Option<f64>| share.map_or("unknown".to_owned(), |share| format!("{:.3}%", 100.0 * share));
     say(format!(
-        "{output}: {width}x{height}, {} samples a pixel in {:.2} s, {:.2} million rays a second; standard error {} of the mean \
-         radiance on average, 99% of the pixels below {} of theirs",
+        "{output}: {width}x{height}, {} samples a pixel in {:.2} s, {:.2} million rays a second; standard error of a pixel: on average \
+         {} of the mean radiance; 99 of 100 lit pixels are known to {} of their own",
         picture.samples,
         timing.total(),
         speed / 1e6,
@@ -144,8 +162,8 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
 pub fn in_place_of_a_device(arguments: &Render, inputs: &Inputs, mut timing: Timing) -> Result<(), Failure> {
     let filter = if arguments.msaa == 1 { Filter::Centre } else { Filter::Box };
     let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
-    let (picture, counts) = render(inputs, &arguments.picture, options, PLAIN, &mut timing)?;
     complain(NO_DEVICE);
+    let (picture, counts) = render(inputs, &arguments.picture, options, PLAIN, &mut timing)?;
     finish(&arguments.picture, inputs, &picture, counts, &mut timing)
 }
 
@@ -157,12 +175,12 @@ const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the 
 pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
     let renderer = Renderer::new(scene, settings, &LtcTable::embedded(), options).map_err(failure)?;
+    complain(NO_DEVICE);
     let picture = with_progress("reference", |step| {
         renderer.render(&scene.cameras[0], size, PLAIN, |done, all| {
             step(done as usize, all as usize);
             true
         })
     });
-    complain(NO_DEVICE);
     Ok(picture.map_err(failure)?.radiance)
 }

@@ -33,8 +33,8 @@ pub struct PictureArgs {
     /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering; repeatable
     #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
     pub set: Vec<Assignment>,
-    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through both (with
-    /// `velour reference` only) [default: gltf]
+    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through the fibres
+    /// themselves, whatever the model, and the base (with `velour reference` only) [default: gltf]
     #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = overrides::layering)]
     pub layering: Option<Layering>,
     /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]

@@ -130,22 +130,22 @@ fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
         reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap()
     };
     let early = render(4096, 1);
-    assert_eq!((early.samples, early.batches), (16, 1));
+    assert_eq!((early.samples, early.batches), (1, 1));
     assert_eq!(early.relative_error(), None);
-    let later = render(4096, 4 * 5 + 1);
-    assert!(later.samples > 16 && later.samples < 4096 && later.samples % 16 == 0, "{}", later.samples);
+    // Batches of 1, 1, 2, 4, 8, 16, 16 and so on, four tiles each.
+    let later = render(4096, 4 * 7 + 1);
+    assert_eq!(later.samples, 48);
     // What is there is what as many samples give that are asked for.
     assert_eq!(later.radiance, whole_batches(&reference, &scene, later.samples));
     let whole = render(100, u64::MAX);
-    assert_eq!((whole.samples, whole.batches), (100, 25));
+    assert_eq!((whole.samples, whole.batches), (100, 27));
 }
 
 /// The picture of the first samples of 4096.
 fn whole_batches(reference: &Reference, scene: &Scene, samples: u64) -> LinearImage {
-    let tiles_a_batch = (40 * 20_u64).div_ceil(256);
-    let batches = samples / 16;
     let effort = Effort { samples: 4096, seed: 0 };
-    let stop_after = batches * tiles_a_batch;
+    // With the last of these batches' tiles.
+    let stop_after = 4 * 7;
     let picture = reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap();
     assert_eq!(picture.samples, samples);
     picture.radiance

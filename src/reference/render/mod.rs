@@ -158,20 +158,17 @@ impl<'a> Reference<'a> {
         Self::check_size(size)?;
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         let view = View::new(camera, size);
-        let batch = (samples / BATCHES).clamp(1, BATCH_MOST);
-        // Whole numbers of the sequence's squares are the best spread.
-        let batch = 1 << batch.ilog2();
-        let (batches, tiles) = (samples.div_ceil(batch), pixels.div_ceil(TILE as u64));
+        let (batches, tiles) = (batches(samples), pixels.div_ceil(TILE as u64));
+        let all = batches.clone().count() as u64 * tiles;
         let (done, stopped) = (AtomicU64::new(0), AtomicBool::new(false));
         let mut film = Film::new(size);
-        for index in 0..batches {
-            let count = batch.min(samples - index * batch);
+        for (index, count) in (0_u64..).zip(batches) {
             let tile = |tile: u64| {
                 let is_needed = index == 0 || !stopped.load(Ordering::Relaxed);
                 let range = tile * TILE as u64..pixels.min((tile + 1) * TILE as u64);
                 let means =
                     if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Vec::new() };
-                if !go_on(done.fetch_add(1, Ordering::Relaxed) + 1, batches * tiles) {
+                if !go_on(done.fetch_add(1, Ordering::Relaxed) + 1, all) {
                     stopped.store(true, Ordering::Relaxed);
                 }
                 means
@@ -214,6 +211,19 @@ impl<'a> Reference<'a> {
         self.rays.fetch_add(rays, Ordering::Relaxed);
         means
     }
+}
+
+/// Samples of each batch, one after another: of as many as make [`BATCHES`], up to [`BATCH_MOST`], in powers of two, which spread best. The first are
+/// smaller, so that there is a picture soon.
+fn batches(samples: u64) -> impl Iterator<Item = u64> + Clone {
+    let usual = 1_u64 << (samples / BATCHES).clamp(1, BATCH_MOST).ilog2();
+    let mut left = samples;
+    let sizes = (0_u32..).map(move |index| usual.min(1 << index.saturating_sub(1).min(32)));
+    sizes.map_while(move |size| {
+        let size = size.min(left);
+        left -= size;
+        (size > 0).then_some(size)
+    })
 }
 
 /// Rec. 709.
