@@ -18,7 +18,7 @@ fn pictures_come_with_their_figures() {
     let bench = Bench::new();
     let base = "reference scene.glb --size 40x30 --json";
     let said = figures(&bench, &format!("{base} -o a.exr --spp 70 --errors errors.exr"));
-    assert_eq!([&said["samples"], &said["samples_wanted"], &said["batches"]], [70, 70, 20]);
+    assert_eq!([&said["samples"], &said["samples_wanted"], &said["batches"]], [70, 70, 36]);
     assert!(said["rays"].as_u64().unwrap() > 40 * 30 * 70 && said["rays_per_second"].as_f64().unwrap() > 0.0);
     assert!((0.0..0.2).contains(&said["relative_error"].as_f64().unwrap()), "{said}");
     assert_eq!(bench.names(), ["a.exr", "errors.exr", "scene.glb"]);

@@ -39,7 +39,7 @@ use crate::scene::{Camera, Scene, Settings};
 use crate::table::LtcTable;
 
 /// Batches of samples that are made where there are enough: from their scatter errors are estimated.
-const BATCHES: u64 = 16;
+const BATCHES: u64 = 32;
 /// Most samples of a batch: a picture that is asked to end is made of whole batches.
 const BATCH_MOST: u64 = 16;
 /// Pixels that a thread takes at a time.
