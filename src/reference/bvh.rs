@@ -1,6 +1,6 @@
 //! Rays against many things: a bounding volume hierarchy of `f32` boxes around things that are met in `f64`.
 //!
-//! Boxes are those of the scene scaled into a cube of twice [`SPAN`], each padded by what `f32` may have rounded away, so that no thing is
+//! Boxes are those of the scene scaled into a cube of twice `SPAN`, each padded by what `f32` may have rounded away, so that no thing is
 //! lost: the hierarchy says where to look, the things themselves say what is met.
 
 use std::ops::ControlFlow;

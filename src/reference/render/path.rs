@@ -153,7 +153,7 @@ impl Light<'_> {
             return (DVec3::ZERO, None);
         }
         let weight = lobes.weight();
-        let mut sum = self.from_lights(surface, (lobes, chooser), weight, sample);
+        let mut sum = self.looked_for(surface, (lobes, chooser), weight, sample);
         let has_ambient = self.settings.ambient != Vec3::ZERO;
         let closed = if self.options.shadows { None } else { lobes.albedo() };
         if let Some(albedo) = closed.filter(|_| has_ambient) {
@@ -181,7 +181,7 @@ impl Light<'_> {
     }
 
     /// Light that is looked for on the lights; a direction found in the lobes weighs `weight`.
-    fn from_lights(
+    fn looked_for(
         &self,
         surface: &Surface,
         (lobes, chooser): (&Lobes, &Chooser),
