@@ -220,12 +220,10 @@ mod tests {
         (0..count).map(ball).collect()
     }
 
-    /// Rays at random, along the axes (with zeros of either sign), and from far away.
-    fn rays(offset: DVec3, scale: f64) -> Vec<Ray> {
+    /// Rays towards balls, at random and along the axes (with zeros of either sign), from far away and from a hair before them.
+    fn rays(balls: &[Ball], scale: f64) -> Vec<Ray> {
         let mut rng = Pcg64::seed_from_u64(6);
-        let mut rays = Vec::new();
-        for k in 0..600 {
-            let target = offset + scale * 0.5 * unit_sphere(&mut rng);
+        let ray = |k: usize| {
             let direction = match k % 8 {
                 0 => DVec3::new(-0.0, 0.0, 1.0),
                 1 => DVec3::new(0.0, -1.0, -0.0),
@@ -233,11 +231,12 @@ mod tests {
                 3 => DVec3::new(1e-9, -1.0, -1e-12).normalize(),
                 _ => unit_sphere(&mut rng),
             };
-            // From beside the target too.
-            let distance = [0.3, 3.0, 1e4, 1e-3, 1e-5, 1e-7][k % 6];
-            rays.push(Ray { origin: target - scale * distance * direction, direction });
-        }
-        rays
+            let Ball { center, radius } = balls[k % balls.len()];
+            let beside = 0.9 * radius * unit_sphere(&mut rng);
+            let distance = radius + scale * [0.3, 3.0, 1e4, 1e-3, 1e-5, 1e-7][k % 6];
+            Ray { origin: center + beside - distance * direction, direction }
+        };
+        (0..600).map(ray).collect()
     }
 
     #[test]
@@ -247,7 +246,7 @@ mod tests {
             let bvh = Bvh::new(all.clone());
             assert_eq!(bvh.primitives().len(), all.len());
             let mut met = 0;
-            for ray in rays(offset, scale) {
+            for ray in rays(&all, scale) {
                 let range = [0.0, 2e4 * scale];
                 let inside = |distance: &f64| (range[0]..range[1]).contains(distance);
                 let mut expected: Vec<f64> =
@@ -272,7 +271,7 @@ mod tests {
                     met += 1;
                 }
             }
-            assert!(met > 100, "{met} rays meet anything");
+            assert!(met > 300, "{met} rays meet anything");
         }
     }
 
