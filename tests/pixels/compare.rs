@@ -26,7 +26,7 @@ const RELATIVE: f64 = 5e-5;
 const OF_GREATEST: f64 = 5e-6;
 /// Drivers may move corners to a grid of at least 16 a pixel (Vulkan's least `subPixelPrecisionBits`), half a step at most,
 /// and the places that they interpolate move with them: SwiftShader does, lavapipe interpolates between the true corners.
-const CORNER_SHIFT: f64 = 0.5 / 16.0;
+pub const CORNER_SHIFT: f64 = 0.5 / 16.0;
 /// Within this many pixels of an edge the centre may be found on either side of it: CORNER_SHIFT and some.
 const EDGE: f64 = 0.05;
 /// So much of a picture may be left out as edges. Stages are made of few large things.
@@ -74,9 +74,14 @@ fn expected(truth: &Truth, size: [u32; 2]) -> Vec<Option<DVec3>> {
     pixels.map(one).collect()
 }
 
+/// Whether the driver moves corners to its grid before it interpolates.
+pub fn moves_corners() -> bool {
+    !GPU.adapter.get_info().name.starts_with("llvmpipe")
+}
+
 /// How far the truth moves, per channel, when the corners do.
 fn slack(truth: &Truth, [x, y]: [f64; 2]) -> DVec3 {
-    if GPU.adapter.get_info().name.starts_with("llvmpipe") {
+    if !moves_corners() {
         return DVec3::ZERO;
     }
     let at = |x, y| truth.at([x, y]).map_or(DVec3::ZERO, |hit| hit.radiance);
