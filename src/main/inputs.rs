@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use velour::picture::{Format, LinearImage, WriteError, check_writable};
-use velour::scene::{Camera, Layering, Overrides, Scene, Settings, gltf};
+use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
 use crate::render_args::{PictureArgs, Switch};
@@ -62,6 +62,7 @@ impl Inputs {
     }
 
     /// Refuses what takes a path tracer.
+    #[cfg(feature = "gpu")]
     pub fn check_real_time(&self) -> Result<(), Failure> {
         let own = self.settings.material_overrides.values();
         for overrides in own.chain([&self.settings.overrides]) {
@@ -71,7 +72,7 @@ impl Inputs {
                     "--sheen-model {name} takes a path tracer: use `velour reference`"
                 )));
             }
-            if overrides.layering == Some(Layering::Walk) {
+            if overrides.layering == Some(velour::scene::Layering::Walk) {
                 return Err(Failure::input("--layering walk takes a path tracer: use `velour reference`"));
             }
         }
