@@ -1,13 +1,12 @@
 //! `velour compare`: how far a picture is from a reference.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::json;
 use velour::picture::{Differences, FlipMap, Format, Picture, check_writable, write_atomically};
 
 use crate::args::Compare;
-use crate::output::with_progress;
+use crate::output::{is_same_file, with_progress};
 use crate::{Failure, say};
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -44,8 +43,7 @@ fn check_heatmap(path: &Path, inputs: [&Path; 2]) -> Result<(), Failure> {
         return Err(Failure::input(format!("--heatmap {name}: a heat map is a .png: give it that extension")));
     }
     check_writable(path).map_err(Failure::input)?;
-    let place = fs::canonicalize(path).ok();
-    if place.is_some() && inputs.into_iter().any(|input| fs::canonicalize(input).ok() == place) {
+    if inputs.into_iter().any(|input| is_same_file(path, input)) {
         return Err(Failure::input(format!("--heatmap {name}: is a picture to be compared: choose another place")));
     }
     Ok(())

@@ -7,6 +7,7 @@ use velour::picture::{Format, LinearImage, WriteError, check_writable};
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::LtcTable;
 
+use crate::output::is_same_file;
 use crate::render_args::{PictureArgs, Switch};
 use crate::{Failure, complain, overrides};
 
@@ -82,9 +83,8 @@ impl Inputs {
 
 /// Refuses to write over the scene.
 pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
-    let same = output.canonicalize().ok().zip(scene.canonicalize().ok()).is_some_and(|(output, scene)| output == scene);
     let message = || format!("{}: is the scene itself: choose another place", output.display());
-    if same { Err(Failure::input(message())) } else { Ok(()) }
+    if is_same_file(output, scene) { Err(Failure::input(message())) } else { Ok(()) }
 }
 
 /// A linear picture's file, in memory.

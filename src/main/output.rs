@@ -16,6 +16,11 @@ pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
     paths.iter().try_for_each(|path| check_writable(path)).map_err(Failure::input)
 }
 
+/// Whether both names stand for one file that is there.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+}
+
 /// Does `work`, which tells of its (done, all) steps, under a bar that is drawn on a terminal only.
 pub fn with_progress<T>(name: &'static str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
     let bar = ProgressBar::new(0).with_message(name);

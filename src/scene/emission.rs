@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::{Image, Mesh, Sampler, Scene, TextureSlot, Wrap, linear_from_srgb};
+use super::{Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
 
 /// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
 const TEXELS: f64 = (1 << 20) as f64;
@@ -113,23 +113,11 @@ impl Level {
         let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
         let (corner, fraction) = (place.floor(), (place - place.floor()).as_vec2());
         let [columns, rows] = [(corner.x, self.width, 0), (corner.y, self.height, 1)]
-            .map(|(at, side, axis)| [at as i64, at as i64 + 1].map(|at| wrapped(at, side as i64, sampler.wrap[axis])));
+            .map(|(at, side, axis)| [at as i64, at as i64 + 1].map(|at| sampler.wrap[axis].texel(at, side as i64)));
         let row = |y: usize| {
             let [left, right] = columns.map(|x| self.texels[y * self.width + x]);
             left.lerp(right, fraction.x)
         };
         row(rows[0]).lerp(row(rows[1]), fraction.y)
     }
-}
-
-/// The texel in [0, side) that stands at any place.
-fn wrapped(at: i64, side: i64, wrap: Wrap) -> usize {
-    (match wrap {
-        Wrap::Repeat => at.rem_euclid(side),
-        Wrap::Clamp => at.clamp(0, side - 1),
-        Wrap::Mirror => {
-            let at = at.rem_euclid(2 * side);
-            at.min(2 * side - 1 - at)
-        }
-    }) as usize
 }

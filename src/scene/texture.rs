@@ -47,6 +47,21 @@ pub enum Wrap {
     Clamp,
 }
 
+impl Wrap {
+    /// The texel in [0, side) that stands at any place along an axis of `side` texels.
+    pub fn texel(self, at: i64, side: i64) -> usize {
+        let at = match self {
+            Self::Repeat => at.rem_euclid(side),
+            Self::Clamp => at.clamp(0, side - 1),
+            Self::Mirror => {
+                let at = at.rem_euclid(2 * side);
+                at.min(2 * side - 1 - at)
+            }
+        };
+        at as usize
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filter {
     Nearest,

@@ -60,9 +60,14 @@ impl SpecularLtc {
     /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, transformed by the matrix
     /// (1/a, 0, -b/a), (0, 1/c, 0), (0, 0, 1) and normalised. `a` and `c` are above 0.
     pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
-        let Self { a, b, c } = *self;
+        let Self { a, c, .. } = *self;
         assert!(a > 0.0 && c > 0.0, "a singular matrix has no samples: a = {a}, c = {c}");
-        let cosine = cosine_hemisphere(uniforms);
+        self.direction(cosine_hemisphere(uniforms))
+    }
+
+    /// Where the matrix takes a direction of the cosine, unit: (1/a, 0, -b/a), (0, 1/c, 0), (0, 0, 1), normalised. `a` and `c` are above 0.
+    pub fn direction(&self, cosine: DVec3) -> DVec3 {
+        let Self { a, b, c } = *self;
         DVec3::new(cosine.x - b * cosine.z, a / c * cosine.y, a * cosine.z).normalize()
     }
 }

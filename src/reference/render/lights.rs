@@ -107,9 +107,8 @@ impl Seen<'_> {
 
     /// A direction with the transformed cosine's density over its share.
     pub fn sample(&self, ltc: &SpecularLtc, uniforms: [f64; 2]) -> Option<Lit> {
-        let direction = Convex::new(&self.transformed(ltc)).sample(uniforms)?;
-        let SpecularLtc { a, b, c } = *ltc;
-        let wo = DVec3::new(direction.x - b * direction.z, a / c * direction.y, a * direction.z).try_normalize()?;
+        let cosine = Convex::new(&self.transformed(ltc)).sample(uniforms)?;
+        let wo = ltc.direction(cosine);
         Some(self.lit(wo)).filter(|_| wo.z > 0.0)
     }
 

@@ -3,7 +3,6 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::SpecularModel;
 use super::models::Models;
 use super::surface::{SheenAt, Surface};
 use crate::math::sine;
@@ -245,11 +244,5 @@ impl SpecularAt<'_> {
     fn albedo(&self, schlick: &[Schlick; 3]) -> DVec3 {
         let [albedo, fresnel] = self.shares;
         DVec3::from(schlick.each_ref().map(|schlick| schlick.albedo(albedo, fresnel)))
-    }
-}
-
-impl SpecularModel {
-    pub(super) fn is_ltc(self) -> bool {
-        self == Self::Ltc
     }
 }

@@ -122,15 +122,12 @@ impl<'a> Reference<'a> {
         table: &LtcTable,
         options: Options,
     ) -> Result<Self, ReferenceError> {
-        let mut is_light = vec![false; scene.instances.len()];
-        scene.lights.iter().for_each(|light| is_light[light.instance] = true);
         let light = Light {
             world: World::new(scene, settings)?,
             lights: Lights::new(scene),
             models: Models::new(scene, settings, table, options.specular),
             settings,
             options,
-            is_light,
         };
         Ok(Self { light, rays: AtomicU64::new(0) })
     }

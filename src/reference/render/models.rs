@@ -90,7 +90,7 @@ impl Models {
 
     pub fn specular(&self, material: usize, roughness: f64, mu: f64) -> SpecularAt<'_> {
         let GgxLobe { ltc, albedo, fresnel } = self.ggx_table.lookup(roughness.clamp(0.0, 1.0), mu.min(1.0));
-        if self.specular.is_ltc() {
+        if self.specular == SpecularModel::Ltc {
             return SpecularAt { ltc, shares: [albedo, fresnel], facets: None };
         }
         let make = |roughness: f64| Ggx::new(roughness, Schlick::MIRROR);

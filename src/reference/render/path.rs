@@ -35,8 +35,6 @@ pub(super) struct Light<'a> {
     pub models: Models,
     pub settings: &'a Settings,
     pub options: Options,
-    /// Instances whose emission is that of a light: it is looked for.
-    pub is_light: Vec<bool>,
 }
 
 /// The ray on which a path goes on, and what its radiance is multiplied by; none where it ends.
@@ -82,9 +80,9 @@ impl Light<'_> {
             radiance += throughput * reflected;
             let Some((ray, weight)) = next else { break };
             throughput *= weight;
-            let Some((instance, met)) = self.met(&ray, sample) else { break };
+            let Some((met, is_light)) = self.met(&ray, sample) else { break };
             surface = met;
-            if !self.is_light[instance] {
+            if !is_light {
                 radiance += throughput * emitted(&surface);
             }
             let worth = throughput.max_element();
@@ -99,8 +97,8 @@ impl Light<'_> {
         radiance
     }
 
-    /// The surface that a path meets next, with its instance; blended ones are there in as many cases as they are opaque.
-    fn met(&self, ray: &Ray, sample: &mut Sample) -> Option<(usize, Surface)> {
+    /// The surface that a path meets next, and whether it is a light's; blended ones are there in as many cases as they are opaque.
+    fn met(&self, ray: &Ray, sample: &mut Sample) -> Option<(Surface, bool)> {
         let mut near = self.world.apart;
         for _ in 0..LAYERS_MOST {
             sample.rays += 1;
@@ -109,7 +107,7 @@ impl Light<'_> {
                 // The backs of one-sided surfaces are black.
                 let is_seen = hit.front || self.world.material(&hit).double_sided;
                 let surface = Surface::new(&self.world, self.settings, ray, &hit);
-                return is_seen.then(|| (self.world.instance(&hit), surface));
+                return is_seen.then(|| (surface, self.world.is_light(&hit)));
             }
             near = hit.distance.next_up().max(hit.distance + self.world.apart);
         }

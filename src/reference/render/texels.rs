@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec4};
 
-use crate::scene::{Filter, Image, Sampler, Wrap, linear_from_srgb};
+use crate::scene::{Filter, Image, Sampler, linear_from_srgb};
 
 /// Linear light of the sRGB codes.
 static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as u8).into()));
@@ -18,8 +18,8 @@ pub(super) fn texel(image: &Image, sampler: Sampler, is_color: bool, uv: DVec2) 
     let place = if sampler.magnify == Filter::Nearest { place.round() } else { place };
     let (corner, fraction) = (place.floor(), place - place.floor());
     let sides = [image.width, image.height];
-    let [columns, rows] = [0, 1]
-        .map(|axis| [0, 1].map(|step| wrapped(corner[axis] as i64 + step, i64::from(sides[axis]), sampler.wrap[axis])));
+    let [columns, rows] =
+        [0, 1].map(|axis| [0, 1].map(|step| sampler.wrap[axis].texel(corner[axis] as i64 + step, sides[axis].into())));
     let at = |x: usize, y: usize| decoded(image.texels[y * image.width as usize + x], is_color);
     let [upper, lower] = rows.map(|y| at(columns[0], y).lerp(at(columns[1], y), fraction.x));
     upper.lerp(lower, fraction.y)
@@ -32,22 +32,10 @@ fn decoded(codes: [u8; 4], is_color: bool) -> DVec4 {
     DVec4::new(color(red), color(green), color(blue), plain(alpha))
 }
 
-/// The texel in [0, side) that stands at any place.
-fn wrapped(at: i64, side: i64, wrap: Wrap) -> usize {
-    let at = match wrap {
-        Wrap::Repeat => at.rem_euclid(side),
-        Wrap::Clamp => at.clamp(0, side - 1),
-        Wrap::Mirror => {
-            let turn = at.rem_euclid(2 * side);
-            turn.min(2 * side - 1 - turn)
-        }
-    };
-    at as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Wrap;
 
     fn image() -> Image {
         let texels = vec![[0, 0, 0, 255], [255, 0, 0, 255], [0, 255, 0, 0], [188, 0, 255, 0]];

@@ -32,6 +32,8 @@ struct Place {
     mirrors: bool,
     /// Where textures are white.
     emission: DVec3,
+    /// Its emission is that of a light: it is looked for.
+    is_light: bool,
 }
 
 /// A point of a surface that a ray meets.
@@ -63,6 +65,7 @@ impl<'a> World<'a> {
                 world_from_normal: instance.world_from_normal().as_dmat3(),
                 mirrors: instance.mirrors(),
                 emission: lights[index].map_or(material.emission, |light| light.emission()).as_dvec3(),
+                is_light: lights[index].is_some(),
             }
         };
         let places: Vec<Place> = scene.instances.iter().enumerate().map(place).collect();
@@ -119,24 +122,23 @@ impl<'a> World<'a> {
 
     /// The nearest surface that is seen along a ray between two distances: not the backs of one-sided ones.
     pub fn nearest_seen(&self, ray: &Ray, range: [f64; 2]) -> Option<Hit> {
-        let mut seen = None;
-        self.bvh.nearest(ray, range, |meeting| {
-            let hit = self.hit(ray, meeting).filter(|hit| hit.front || self.material(hit).double_sided);
-            seen = hit.or(seen);
-            hit.is_some()
-        });
-        seen
+        self.nearest_of(ray, range, |hit| hit.front || self.material(hit).double_sided)
     }
 
     /// The nearest surface along a ray between two distances, from the front or from behind.
     pub fn nearest(&self, ray: &Ray, range: [f64; 2]) -> Option<Hit> {
-        let mut met = None;
+        self.nearest_of(ray, range, |_| true)
+    }
+
+    /// The nearest hit between two distances of those that count.
+    fn nearest_of(&self, ray: &Ray, range: [f64; 2], counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let mut nearest = None;
         self.bvh.nearest(ray, range, |meeting| {
-            let hit = self.hit(ray, meeting);
-            met = hit.or(met);
+            let hit = self.hit(ray, meeting).filter(&counts);
+            nearest = hit.or(nearest);
             hit.is_some()
         });
-        met
+        nearest
     }
 
     /// The share of light that passes along a ray between two distances: what is opaque stops it, from the front and from behind,
@@ -165,14 +167,18 @@ impl<'a> World<'a> {
         self.mesh_of(&self.bvh.primitives()[hit.triangle]).material
     }
 
-    /// Index into `Scene::instances`.
-    pub fn instance(&self, hit: &Hit) -> usize {
-        self.bvh.primitives()[hit.triangle].instance as usize
+    fn place(&self, hit: &Hit) -> &Place {
+        &self.places[self.bvh.primitives()[hit.triangle].instance as usize]
     }
 
     /// Emitted radiance where the textures are white.
     pub fn emission(&self, hit: &Hit) -> DVec3 {
-        self.places[self.instance(hit)].emission
+        self.place(hit).emission
+    }
+
+    /// Whether its emission is that of a light.
+    pub fn is_light(&self, hit: &Hit) -> bool {
+        self.place(hit).is_light
     }
 
     fn opacity(&self, triangle: &Triangle, material: &Material, weights: [f64; 3]) -> f64 {
