@@ -1,55 +1,33 @@
-//! The house's order: which module may import which, and how long a file may grow.
+//! Which module may import which.
 //!
 //! Files are read as tokens, so that comments and strings hold no paths and macros hide none.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
+use super::{files, read, root};
+
 /// Each module at the top of the library, and those that it may import. `main` sees all.
-const MAY_IMPORT: [(&str, &[&str]); 12] = [
+const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("math", &[]),
-    ("export", &[]),
+    ("file", &[]),
     ("table", &["math"]),
-    ("scene", &["math"]),
     ("picture", &["math"]),
+    ("scene", &["math", "picture"]),
+    ("bvh", &["math", "scene"]),
     ("physics", &["math"]),
     ("fit", &["math", "table", "physics"]),
     ("models", &["math", "table", "physics"]),
-    ("reference", &["math", "table", "scene", "picture", "models"]),
-    ("renderer", &["math", "table", "scene", "picture"]),
-    ("viewer", &["math", "table", "scene", "picture", "models", "reference", "renderer"]),
-    ("figures", &["math", "table", "scene", "picture", "physics", "fit", "models", "reference", "renderer"]),
+    ("reference", &["math", "table", "scene", "picture", "models", "bvh"]),
+    ("renderer", &["math", "table", "scene", "picture", "bvh"]),
+    ("export", &["math", "table", "models", "picture", "reference"]),
+    ("viewer", &["math", "table", "scene", "picture", "models", "reference", "renderer", "bvh", "file"]),
+    (
+        "figures",
+        &["math", "table", "scene", "picture", "physics", "fit", "models", "reference", "renderer", "bvh", "file"],
+    ),
 ];
-
-/// Longest Rust file, in lines.
-const RUST_LINES: usize = 400;
-/// Longest shader of those that people copy, in lines.
-const SHADER_LINES: usize = 200;
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// The files under a folder whose names end so, in order.
-fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut found = Vec::new();
-    for path in entries.map(|entry| entry.unwrap().path()) {
-        if path.is_dir() {
-            found.extend(files(&path, extension));
-        } else if path.extension().is_some_and(|own| own == extension) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
 
 /// Where a file of the library stands in its tree of modules: `scene/gltf/mod.rs` is `scene::gltf`. None for the binary's.
 fn module_of(file: &Path) -> Option<Vec<String>> {
@@ -217,19 +195,4 @@ fn what_the_order_allows_is_let_pass() {
     ] {
         assert_eq!(violations(Path::new(file), source), [""; 0], "{file}: {source}");
     }
-}
-
-fn too_long(folder: &str, extension: &str, most: usize) -> Vec<String> {
-    let lines = |file: &PathBuf| read(file).lines().count();
-    let long = files(&root().join(folder), extension).into_iter().filter(|file| lines(file) > most);
-    long.map(|file| format!("{}: {} lines", file.display(), lines(&file))).collect()
-}
-
-#[test]
-fn files_stay_short() {
-    let mut long = too_long("src", "rs", RUST_LINES);
-    long.extend(too_long("tests", "rs", RUST_LINES));
-    long.extend(too_long("shaders", "wgsl", SHADER_LINES));
-    assert!(long.is_empty(), "more than {RUST_LINES} lines of Rust or {SHADER_LINES} of WGSL:\n{}", long.join("\n"));
-    assert!(!too_long("src", "rs", 10).is_empty(), "the ruler measures nothing");
 }
