@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use std::hint::black_box;
 use velour::math::warp::{cosine_hemisphere, uniform};
 use velour::models::{Bsdf, Burley, ContyKulla, LtcSheen, NeubeltPettineo, Patry, SlabSheen, Terminator};
-use velour::table::{LtcTable, SlabTable};
+use velour::table::{SheenTable, SlabTable};
 
 /// Different calls in turn, so that no branch is learnt by heart.
 const CALLS: usize = 4096;
@@ -34,7 +34,7 @@ fn calls(c: &mut Criterion, name: &str, model: &dyn Bsdf) {
 }
 
 fn models(c: &mut Criterion) {
-    let (ltc, slab) = (LtcTable::embedded(), SlabTable::embedded());
+    let (ltc, slab) = (SheenTable::embedded(), SlabTable::embedded());
     calls(c, "ltc", &LtcSheen::new(&ltc, 0.3));
     calls(c, "slab", &SlabSheen::new(&slab, 0.3));
     calls(c, "burley", &Burley::new());

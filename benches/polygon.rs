@@ -6,7 +6,7 @@ use glam::{Vec3, Vec4};
 use half::f16;
 use std::time::{Duration, Instant};
 use velour::renderer::device::{self, Gpu};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 use wgpu::util::DeviceExt;
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -50,7 +50,7 @@ impl Stage {
         });
         let matrices = table(&gpu, SPECULAR_NODES, &specular_nodes(specular_matrix));
         let weights = table(&gpu, SPECULAR_NODES, &specular_nodes(specular_weights));
-        let sheen = LtcTable::embedded();
+        let sheen = SheenTable::embedded();
         let sheen = table(&gpu, sheen.size()[0] as u32, &sheen.texels());
         let linear = wgpu::FilterMode::Linear;
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {

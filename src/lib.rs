@@ -25,7 +25,7 @@
 //! The sheen's numbers at any roughness and view angle, without a graphics device:
 //!
 //! ```
-//! let table = velour::table::LtcTable::embedded();
+//! let table = velour::table::SheenTable::embedded();
 //! let [a, b, r] = table.lookup(0.5, 0.3);
 //! assert!(a > 0.0 && b < 0.0 && r < 1.0);
 //! ```

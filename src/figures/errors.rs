@@ -7,7 +7,7 @@ use crate::fit::lobe::Lobes;
 use crate::fit::{DIM, Errors};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::table::{Ltc, LtcTable, centres};
+use crate::table::{SheenLtc, SheenTable, centres};
 use rayon::prelude::*;
 
 pub const NAMES: [&str; 2] = ["error_lobe.svg", "error_r.svg"];
@@ -23,11 +23,11 @@ pub const fn steps() -> usize {
 }
 
 /// The errors of `table`'s lobes and of its r, where R >= 1e-3. `step` is told of each row, from any of the working threads.
-pub fn errors(table: &LtcTable, step: impl Fn() + Sync) -> Vec<Figure> {
+pub fn errors(table: &SheenTable, step: impl Fn() + Sync) -> Vec<Figure> {
     vec![lobe_figure(table, &step), albedo_figure(table, &step)]
 }
 
-fn lobe_figure(table: &LtcTable, step: impl Fn() + Sync) -> Figure {
+fn lobe_figure(table: &SheenTable, step: impl Fn() + Sync) -> Figure {
     let field = field(LOBE_CELLS, |alpha| {
         let lobes = Lobes::new(Transport::new(Slab::new(alpha), Resolution::default()));
         let row = row(LOBE_CELLS, |mu| lobe_error(table, &lobes, alpha, mu));
@@ -38,7 +38,7 @@ fn lobe_figure(table: &LtcTable, step: impl Fn() + Sync) -> Figure {
     figure(table, NAMES[0], "Error of the table's lobe", about, &field, Scale::Log(1e-2..1.0))
 }
 
-fn albedo_figure(table: &LtcTable, step: impl Fn() + Sync) -> Figure {
+fn albedo_figure(table: &SheenTable, step: impl Fn() + Sync) -> Figure {
     let field = field(ALBEDO_CELLS, |alpha| {
         let transport = Transport::new(Slab::new(alpha), Resolution { modes: 1, ..Default::default() });
         let row = row(ALBEDO_CELLS, |mu| albedo_error(table, &transport, alpha, mu));
@@ -50,21 +50,21 @@ fn albedo_figure(table: &LtcTable, step: impl Fn() + Sync) -> Figure {
 }
 
 /// None where R is below [`DIM`].
-fn lobe_error(table: &LtcTable, lobes: &Lobes, alpha: f64, mu: f64) -> Option<f64> {
+fn lobe_error(table: &SheenTable, lobes: &Lobes, alpha: f64, mu: f64) -> Option<f64> {
     let albedo = lobes.transport.albedo(mu);
     if albedo < DIM {
         return None;
     }
     let (shape, hemisphere) = (lobes.shape(mu), &lobes.hemisphere);
     let [a, b, r] = table.lookup(alpha, mu);
-    let ltc = Ltc { a, b };
+    let ltc = SheenLtc { a, b };
     let off = |node: usize| r / albedo * ltc.density(hemisphere.nodes[node]) - shape[node];
     let square = hemisphere.integral(|node| off(node).powi(2));
     Some((square / hemisphere.integral(|node| shape[node].powi(2))).sqrt())
 }
 
 /// None where R is below [`DIM`].
-fn albedo_error(table: &LtcTable, transport: &Transport, alpha: f64, mu: f64) -> Option<f64> {
+fn albedo_error(table: &SheenTable, transport: &Transport, alpha: f64, mu: f64) -> Option<f64> {
     let albedo = transport.albedo(mu);
     (albedo >= DIM).then(|| (table.lookup(alpha, mu)[2] / albedo - 1.0).abs())
 }
@@ -79,7 +79,7 @@ fn field(n: usize, row: impl Fn(f64) -> Vec<Option<f64>> + Sync) -> Field {
     Field::of_centers(n, rows.concat())
 }
 
-fn figure(table: &LtcTable, name: &'static str, title: &str, about: &str, field: &Field, scale: Scale) -> Figure {
+fn figure(table: &SheenTable, name: &'static str, title: &str, about: &str, field: &Field, scale: Scale) -> Figure {
     let seen: Vec<f64> = field.values.iter().copied().flatten().collect();
     let Errors { mean, median, max } = Errors::new(seen);
     let absent = format!("R < {DIM}");
@@ -105,8 +105,8 @@ mod tests {
     const MU: f64 = 0.4;
 
     /// A table of the same lobe everywhere.
-    fn constant(cell: [f64; 3]) -> LtcTable {
-        LtcTable::new([2, 2], vec![cell; 4])
+    fn constant(cell: [f64; 3]) -> SheenTable {
+        SheenTable::new([2, 2], vec![cell; 4])
     }
 
     #[test]
@@ -114,11 +114,11 @@ mod tests {
         let lobes = Lobes::new(Transport::new(Slab::new(ALPHA), Resolution::default()));
         let albedo = lobes.transport.albedo(MU);
         let shape = lobes.shape(MU);
-        let Ltc { a, b } = least_squares::fit(&shape, &lobes.hemisphere, Ltc { a: 0.5, b: 0.0 }, Free::Both);
+        let SheenLtc { a, b } = least_squares::fit(&shape, &lobes.hemisphere, SheenLtc { a: 0.5, b: 0.0 }, Free::Both);
         let error = |cell| lobe_error(&constant(cell), &lobes, ALPHA, MU).expect("R is above DIM");
         let best = error([a, b, albedo]);
         let norm = lobes.hemisphere.integral(|node| shape[node].powi(2));
-        let fitted = least_squares::squared_error(&shape, &lobes.hemisphere, Ltc { a, b });
+        let fitted = least_squares::squared_error(&shape, &lobes.hemisphere, SheenLtc { a, b });
         assert!((best - (fitted / norm).sqrt()).abs() < 1e-12, "{best}");
         assert!(best > 0.01 && best < 0.2, "{best}");
         for worse in [[a * 1.1, b, albedo], [a, b - 0.1, albedo], [a, b, albedo * 1.3], [a, b, albedo * 0.7]] {

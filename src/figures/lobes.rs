@@ -5,7 +5,7 @@ use super::polar::{self, Panel, Words};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::physics::walk::{Counts, FirstFlight, Histogram, Walk};
-use crate::table::{Ltc, LtcTable};
+use crate::table::{SheenLtc, SheenTable};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
@@ -62,7 +62,7 @@ pub const fn steps() -> usize {
 }
 
 /// Small multiples of the lobe f_r mu_o, alpha from 0.1 to 1 by mu from 0.1 to 0.8. `step` is told of each panel.
-pub fn lobes(table: &LtcTable, step: impl Fn()) -> Figure {
+pub fn lobes(table: &SheenTable, step: impl Fn()) -> Figure {
     let mut panels = Vec::new();
     for alpha in ALPHAS {
         let transport = Transport::new(Slab::new(alpha), Resolution::default());
@@ -88,10 +88,10 @@ pub fn lobes(table: &LtcTable, step: impl Fn()) -> Figure {
     Figure { name: NAME, svg, caption }
 }
 
-fn panel(table: &LtcTable, transport: &Transport, [alpha, mu]: [f64; 2], seed: u64) -> Panel {
+fn panel(table: &SheenTable, transport: &Transport, [alpha, mu]: [f64; 2], seed: u64) -> Panel {
     let wi = in_plane(mu.acos());
     let [a, b, r] = table.lookup(alpha, mu);
-    let ltc = Ltc { a, b };
+    let ltc = SheenLtc { a, b };
     let albedo = transport.albedo(mu);
     let paths = if albedo < DIM { DIM_PATHS } else { PATHS };
     let walk = Walk { slab: *transport.slab(), mu, first_flight: FirstFlight::Scattered, paths, seed };

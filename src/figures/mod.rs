@@ -24,7 +24,7 @@ pub use errors::errors;
 pub use lobes::lobes;
 pub use planes::table_planes;
 
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A picture.
@@ -43,7 +43,7 @@ pub const NAMES: [&str; 6] =
     [planes::NAMES[0], planes::NAMES[1], planes::NAMES[2], lobes::NAME, errors::NAMES[0], errors::NAMES[1]];
 
 /// All figures of `table`. Takes some seconds; `progress` is told (done, all) steps, from any of the working threads.
-pub fn all(table: &LtcTable, progress: impl Fn(usize, usize) + Sync) -> Vec<Figure> {
+pub fn all(table: &SheenTable, progress: impl Fn(usize, usize) + Sync) -> Vec<Figure> {
     let (done, all) = (AtomicUsize::new(0), lobes::steps() + errors::steps());
     progress(0, all);
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn names_are_those_of_the_figures() {
-        let planes: Vec<&str> = table_planes(&LtcTable::embedded()).iter().map(|figure| figure.name).collect();
+        let planes: Vec<&str> = table_planes(&SheenTable::embedded()).iter().map(|figure| figure.name).collect();
         assert_eq!(NAMES[..3], planes);
         assert_eq!(NAMES[3..], ["lobes.svg", "error_lobe.svg", "error_r.svg"]);
     }

@@ -3,7 +3,7 @@
 use super::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// Names of the pictures, of columns a, b, r.
 pub const NAMES: [&str; 3] = ["table_a.svg", "table_b.svg", "table_r.svg"];
@@ -15,11 +15,11 @@ const ABOUT: [&str; 3] = [
 ];
 
 /// Columns a, b and r of `table` over (alpha, mu), a cell a node and centred on it.
-pub fn table_planes(table: &LtcTable) -> Vec<Figure> {
+pub fn table_planes(table: &SheenTable) -> Vec<Figure> {
     (0..NAMES.len()).map(|column| plane(table, column)).collect()
 }
 
-fn plane(table: &LtcTable, column: usize) -> Figure {
+fn plane(table: &SheenTable, column: usize) -> Figure {
     let size = table.size();
     let values: Vec<f64> = table.cells().iter().map(|cell| cell[column]).collect();
     let scale = Scale::of(values.iter().copied());
@@ -51,7 +51,7 @@ mod tests {
     fn each_column_has_its_picture() {
         // a, b and r rise along different axes: r along alpha, b along mu, a not at all.
         let cells = vec![[0.5, -0.2, 0.1], [0.5, 0.0, 0.1], [0.5, -0.2, 0.9], [0.5, 0.0, 0.9]];
-        let [a, b, r] = &table_planes(&LtcTable::new([2, 2], cells))[..] else { panic!("three planes") };
+        let [a, b, r] = &table_planes(&SheenTable::new([2, 2], cells))[..] else { panic!("three planes") };
         for (figure, name) in [a, b, r].into_iter().zip(["a", "b", "r"]) {
             assert_eq!(figure.name, format!("table_{name}.svg"));
             let parsed = Parsed::new(&figure.svg);

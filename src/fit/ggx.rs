@@ -14,7 +14,7 @@ use super::nodes;
 use crate::math::{simplex, sine};
 use crate::physics::microfacet::{Ggx, Node, Reflected};
 use crate::table::ggx::GRAZING_MU;
-use crate::table::{GgxTable, SpecularLtc, centres, node};
+use crate::table::{GgxTable, Ltc, centres, node};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -55,7 +55,7 @@ pub fn ggx(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (GgxTab
     let [albedo, fresnel] = albedos(resolution, step);
     let cell = |(i, j): (usize, usize)| {
         let mu = cosine(node(j, resolution)).max(GRAZING_MU);
-        let SpecularLtc { a, b, c } = columns[j][i].ltc;
+        let Ltc { a, b, c } = columns[j][i].ltc;
         let albedo = places(albedo[(i, j)].min(1.0));
         let fresnel = places(fresnel[(i, j)].max(0.0)).min(albedo);
         [places(a / c - mu * mu), places(b / c - mu * sine(mu)), places(1.0 / c.sqrt()), albedo, fresnel]
@@ -69,7 +69,7 @@ pub fn ggx(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (GgxTab
 /// The fit of one node.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
-    pub ltc: SpecularLtc,
+    pub ltc: Ltc,
     /// R.
     pub albedo: f64,
     /// L1 distance of lobe over albedo and density.
@@ -79,13 +79,13 @@ pub struct Fit {
 /// For one `mu` > 0, the nodes of roughness, ascending.
 fn column(resolution: usize, mu: f64) -> Vec<Fit> {
     let mut column: Vec<Fit> = Vec::with_capacity(resolution);
-    let mut above: Option<(Ggx, SpecularLtc)> = None;
+    let mut above: Option<(Ggx, Ltc)> = None;
     for i in (0..resolution).rev() {
         let ggx = Ggx::from_roughness(node(i, resolution));
         // The one before, as much sharper as the surface is smoother; at first a round one.
-        let start = above.map_or(SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }, |(rougher, SpecularLtc { a, b, c })| {
+        let start = above.map_or(Ltc { a: 1.0, b: 0.0, c: 1.0 }, |(rougher, Ltc { a, b, c })| {
             let sharper = rougher.alpha() / ggx.alpha();
-            SpecularLtc { a: a * sharper, b: b * sharper, c: c * sharper }
+            Ltc { a: a * sharper, b: b * sharper, c: c * sharper }
         });
         let found = fit(ggx, mu, [start, mirror(ggx, mu)]);
         above = Some((ggx, found.ltc));
@@ -96,28 +96,28 @@ fn column(resolution: usize, mu: f64) -> Vec<Fit> {
 }
 
 /// A sharp lobe's matrix: mirrored, twice as wide as the facets' slopes are.
-fn mirror(ggx: Ggx, mu: f64) -> SpecularLtc {
+fn mirror(ggx: Ggx, mu: f64) -> Ltc {
     let c = 0.5 / ggx.alpha();
-    SpecularLtc { a: c * mu * mu, b: c * mu * sine(mu), c }
+    Ltc { a: c * mu * mu, b: c * mu * sine(mu), c }
 }
 
 /// The matrix of the density nearest to the lobe for `wi` of cosine `mu` in (0, 1\], the best of the minima reached from `starts`.
 ///
 /// At mu = 1 the lobe is round: a = c, b = 0.
-pub fn fit(ggx: Ggx, mu: f64, starts: [SpecularLtc; 2]) -> Fit {
+pub fn fit(ggx: Ggx, mu: f64, starts: [Ltc; 2]) -> Fit {
     let nodes = ggx.quadrature(mu, QUADRATURE);
     let albedo = albedo(&nodes);
-    let search = |start: SpecularLtc| {
+    let search = |start: Ltc| {
         let value = |ltc| distance(&nodes, albedo, ltc);
         if mu == 1.0 {
-            let at = |[x]: [f64; 1]| SpecularLtc { a: start.c * x.exp(), b: 0.0, c: start.c * x.exp() };
+            let at = |[x]: [f64; 1]| Ltc { a: start.c * x.exp(), b: 0.0, c: start.c * x.exp() };
             let (x, distance) = simplex::minimum(|x| value(at(x)), [0.0], STEP, TOLERANCE);
             return Fit { ltc: at(x), albedo, distance };
         }
         // b / a is the tangent of the direction; it moves in units of the lobe's length, 1 / a.
         let at = |[length, turn, width]: [f64; 3]| {
             let a = start.a * length.exp();
-            SpecularLtc { a, b: a * (start.b + turn) / start.a, c: start.c * width.exp() }
+            Ltc { a, b: a * (start.b + turn) / start.a, c: start.c * width.exp() }
         };
         let (x, distance) = simplex::minimum(|x| value(at(x)), [0.0; 3], STEP, TOLERANCE);
         Fit { ltc: at(x), albedo, distance }
@@ -132,7 +132,7 @@ pub fn albedo(nodes: &[Node]) -> f64 {
 }
 
 /// The integral over the hemisphere of |lobe / albedo - density|.
-pub fn distance(nodes: &[Node], albedo: f64, ltc: SpecularLtc) -> f64 {
+pub fn distance(nodes: &[Node], albedo: f64, ltc: Ltc) -> f64 {
     nodes.iter().map(|node| node.weight * (node.lobe / albedo - ltc.density(node.wo)).abs()).sum()
 }
 

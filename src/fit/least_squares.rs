@@ -1,7 +1,7 @@
 //! The matrix whose transformed cosine is nearest to a lobe.
 
 use super::hemisphere::Hemisphere;
-use crate::table::Ltc;
+use crate::table::SheenLtc;
 
 /// Least `a` that a fit gives.
 pub const LEAST_A: f64 = 1e-3;
@@ -21,14 +21,14 @@ pub enum Free {
 /// and b <= 0, from `start`.
 ///
 /// `shape` is a lobe divided by its albedo, at the nodes.
-pub fn fit(shape: &[f64], hemisphere: &Hemisphere, start: Ltc, free: Free) -> Ltc {
+pub fn fit(shape: &[f64], hemisphere: &Hemisphere, start: SheenLtc, free: Free) -> SheenLtc {
     let mut best = start;
     let mut error = squared_error(shape, hemisphere, best);
     let mut damping = 1e-3;
     for _ in 0..MOST_STEPS {
         let step = Normal::new(shape, hemisphere, best, free).step(damping);
         let a = (best.a.ln() + step[0]).exp().max(LEAST_A);
-        let next = Ltc { a, b: (best.b + step[1]).min(0.0) };
+        let next = SheenLtc { a, b: (best.b + step[1]).min(0.0) };
         let next_error = squared_error(shape, hemisphere, next);
         let moved = (next.a / best.a).ln().abs() + (next.b - best.b).abs();
         if next_error < error {
@@ -47,7 +47,7 @@ pub fn fit(shape: &[f64], hemisphere: &Hemisphere, start: Ltc, free: Free) -> Lt
 }
 
 /// The integral over the hemisphere of (shape - density)^2.
-pub fn squared_error(shape: &[f64], hemisphere: &Hemisphere, ltc: Ltc) -> f64 {
+pub fn squared_error(shape: &[f64], hemisphere: &Hemisphere, ltc: SheenLtc) -> f64 {
     let terms = shape.iter().zip(&hemisphere.nodes).zip(&hemisphere.weights);
     terms.map(|((value, &wo), weight)| weight * (value - ltc.density(wo)).powi(2)).sum()
 }
@@ -60,7 +60,7 @@ struct Normal {
 }
 
 impl Normal {
-    fn new(shape: &[f64], hemisphere: &Hemisphere, ltc: Ltc, free: Free) -> Self {
+    fn new(shape: &[f64], hemisphere: &Hemisphere, ltc: SheenLtc, free: Free) -> Self {
         let (mut matrix, mut right) = ([0.0; 3], [0.0; 2]);
         for ((value, &wo), weight) in shape.iter().zip(&hemisphere.nodes).zip(&hemisphere.weights) {
             let (density, [by_a, by_b]) = ltc.density_and_slopes(wo);

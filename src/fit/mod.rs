@@ -25,7 +25,7 @@ pub use report::{DIM, Errors, Report};
 
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::table::{Ltc, LtcTable, node};
+use crate::table::{SheenLtc, SheenTable, node};
 use albedo::Albedos;
 use least_squares::Free;
 use lobe::Lobes;
@@ -50,7 +50,7 @@ pub const RESOLUTIONS: RangeInclusive<usize> = 2..=128;
 /// Fits the sheen's table with `resolution` nodes a side, the same on any number of threads.
 ///
 /// `progress` is told (done, all) steps, from any of the working threads.
-pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcTable, Report) {
+pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (SheenTable, Report) {
     assert!(RESOLUTIONS.contains(&resolution), "a table has {RESOLUTIONS:?} nodes a side: {resolution}");
     let node = |k: usize| node(k, resolution);
     let samples = Albedos::samples(resolution);
@@ -77,17 +77,17 @@ pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (LtcT
     let nodes = || (0..resolution).flat_map(|i| (0..resolution).map(move |j| (i, j)));
     let r = albedo::fit(resolution, &samples, &nodes().map(at_node).collect::<Vec<_>>());
     let cell = |i: usize, j: usize| {
-        let Ltc { a, b } = rows[j][i.max(1) - 1].ltc;
+        let SheenLtc { a, b } = rows[j][i.max(1) - 1].ltc;
         [a, b, r[i * resolution + j]].map(seven_digits)
     };
-    let table = LtcTable::new([resolution; 2], nodes().map(|(i, j)| cell(i, j)).collect());
+    let table = SheenTable::new([resolution; 2], nodes().map(|(i, j)| cell(i, j)).collect());
     let report = Report::new(&table, rows.iter().flatten(), step);
     (table, report)
 }
 
 /// The fit of one node.
 struct Fit {
-    ltc: Ltc,
+    ltc: SheenLtc,
     /// R.
     albedo: f64,
     /// Relative L2 distance of lobe and transformed cosine.
@@ -96,7 +96,7 @@ struct Fit {
 
 /// For one mu, the nodes with alpha > 0, ascending.
 fn row(lobes: &[Lobes], mu: f64) -> Vec<Fit> {
-    let mut start = Ltc { a: 1.0, b: 0.0 };
+    let mut start = SheenLtc { a: 1.0, b: 0.0 };
     let free = if mu == 1.0 { Free::OnlyA } else { Free::Both };
     let mut row: Vec<Fit> = lobes
         .iter()

@@ -2,7 +2,7 @@
 
 use super::albedo::Albedos;
 use super::{Fit, RESOLUTION, grazing_mu};
-use crate::table::{LtcTable, centres};
+use crate::table::{SheenTable, centres};
 use std::fmt;
 
 /// Albedo R below which a lobe is left out of errors: nobody sees it.
@@ -49,7 +49,7 @@ pub const SPREAD: usize = 48;
 
 impl Report {
     /// `step` is told of each slab that is solved, [`Report::steps`] in all, from any of the working threads.
-    pub(super) fn new<'a>(table: &LtcTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
+    pub(super) fn new<'a>(table: &SheenTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let bright: Vec<&Fit> = fits.filter(|fit| fit.albedo > DIM).collect();
         let albedo: f64 = bright.iter().map(|fit| fit.albedo).sum();
         let weighted = bright.iter().map(|fit| fit.albedo * fit.distance).sum::<f64>() / albedo;
@@ -96,7 +96,7 @@ a, b of mu = 0 are those of mu = {grazing}. alpha = 0 has no lobe: a and b of th
 }
 
 /// Relative errors of the table's r at the centres of `cells` x `cells` cells, where R > 1e-3.
-fn albedo_errors(table: &LtcTable, cells: usize, step: impl Fn() + Sync) -> Errors {
+fn albedo_errors(table: &SheenTable, cells: usize, step: impl Fn() + Sync) -> Errors {
     let truth = Albedos::new(centres(cells), centres(cells), step);
     let mut errors = Vec::new();
     for (row, &alpha) in truth.values.chunks_exact(cells).zip(&truth.alphas) {

@@ -4,7 +4,7 @@ use super::{Bsdf, Sample, check_uniforms, cosine};
 use crate::math::frame::AzimuthFrame;
 use crate::math::{check_cosine, cube_root};
 use crate::physics::microfacet::{self, Reflected};
-use crate::table::{GgxLobe, GgxTable, SpecularLtc, cell, node};
+use crate::table::{GgxLobe, GgxTable, Ltc, cell, node};
 use glam::DVec3;
 
 /// Nodes along the cube root of mu, near enough at mu = alpha where R dips: linear between them, shares are off by 1e-3 at most.
@@ -152,7 +152,7 @@ impl LtcGgx {
     }
 
     /// The lobe at a cosine, and the share that it sends back.
-    fn lobe(&self, mu: f64) -> (SpecularLtc, f64) {
+    fn lobe(&self, mu: f64) -> (Ltc, f64) {
         let GgxLobe { ltc, albedo, fresnel } = self.table.lookup(self.roughness, mu);
         (ltc, self.schlick.albedo(albedo, fresnel))
     }

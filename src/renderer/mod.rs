@@ -33,7 +33,7 @@ use surfaces::SurfacesPass;
 use targets::Targets;
 
 use crate::scene::{Scene, Settings};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// A picture could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -73,7 +73,7 @@ impl Renderer {
     pub fn new(
         gpu: &Gpu,
         format: Format,
-        table: &LtcTable,
+        table: &SheenTable,
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {

@@ -6,7 +6,7 @@ use std::task::{Poll, Waker};
 use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
 use crate::picture::{DisplayImage, LinearImage, ToneCurve};
 use crate::scene::{Camera, Scene, Settings};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// Pictures up to this side are drawn in one piece.
 const TILE_SIDE: u32 = 2048;
@@ -22,7 +22,7 @@ impl Offscreen {
     pub fn for_display(
         gpu: &Gpu,
         samples: u32,
-        table: &LtcTable,
+        table: &SheenTable,
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
@@ -36,7 +36,7 @@ impl Offscreen {
     pub fn for_linear(
         gpu: &Gpu,
         samples: u32,
-        table: &LtcTable,
+        table: &SheenTable,
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {

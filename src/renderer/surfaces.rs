@@ -16,7 +16,7 @@ use super::tables;
 use super::targets::{RadianceFormat, Targets};
 use super::view::View;
 use crate::scene::Settings;
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// The pass' WGSL: the files that engines copy, and this program's own bindings and entry points.
 pub const SURFACES_WGSL: &str = concat!(
@@ -57,7 +57,7 @@ pub struct SurfacesPass {
 }
 
 impl SurfacesPass {
-    pub(super) fn new(gpu: &Gpu, radiance: RadianceFormat, table: &LtcTable, resident: &Resident) -> Self {
+    pub(super) fn new(gpu: &Gpu, radiance: RadianceFormat, table: &SheenTable, resident: &Resident) -> Self {
         let device = &gpu.device;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("surfaces"),

@@ -4,10 +4,10 @@ use wgpu::TextureView;
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
-use crate::table::{GgxTable, LtcTable};
+use crate::table::{GgxTable, SheenTable};
 
 /// The sheen's: x = alpha, y = mu.
-pub(super) fn sheen(gpu: &Gpu, table: &LtcTable) -> TextureView {
+pub(super) fn sheen(gpu: &Gpu, table: &SheenTable) -> TextureView {
     let size = table.size().map(|side| side as u32);
     texture(gpu, "sheen table", size, &table.texels())
 }

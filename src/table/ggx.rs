@@ -17,7 +17,7 @@
 use super::csv::Columns;
 use super::dds::{self, Texture};
 use super::grid::{self, Grid};
-use super::{SpecularLtc, TableError};
+use super::{Ltc, TableError};
 use crate::math::sine;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ const NEGLIGIBLE: f64 = 1e-5;
 /// The lobe of a rough mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GgxLobe {
-    pub ltc: SpecularLtc,
+    pub ltc: Ltc,
     /// R.
     pub albedo: f64,
     /// The Fresnel share: what multiplies f90 - f0.
@@ -74,7 +74,7 @@ impl GgxTable {
         super::load(path.as_ref(), Self::from_csv, Self::from_dds)
     }
 
-    /// Reads lines of `roughness,t,u,v,s,albedo,fresnel`, as [`LtcTable::from_csv`](super::LtcTable::from_csv) does.
+    /// Reads lines of `roughness,t,u,v,s,albedo,fresnel`, as [`SheenTable::from_csv`](super::SheenTable::from_csv) does.
     pub fn from_csv(text: &str) -> Result<Self, TableError> {
         Ok(Self { grid: COLUMNS.read(text)? })
     }
@@ -118,7 +118,7 @@ impl GgxTable {
         let [u, v, s, albedo, fresnel] = self.grid.lookup(roughness, (1.0 - mu).sqrt());
         let c = 1.0 / (s * s);
         let mu = mu.max(GRAZING_MU);
-        let ltc = SpecularLtc { a: c * (mu * mu + u).max(LEAST_ASPECT), b: c * (mu * sine(mu) + v), c };
+        let ltc = Ltc { a: c * (mu * mu + u).max(LEAST_ASPECT), b: c * (mu * sine(mu) + v), c };
         GgxLobe { ltc, albedo, fresnel }
     }
 

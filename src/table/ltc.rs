@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 
 /// The inverse matrix (a, 0, b), (0, a, 0), (0, 0, 1), by rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ltc {
+pub struct SheenLtc {
     pub a: f64,
     pub b: f64,
 }
 
-impl Ltc {
+impl SheenLtc {
     /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
     ///
     /// D(v) |det M^-1| / |v|^3 with v = M^-1 wo and D the cosine's density z/pi on the unit sphere, thus
@@ -22,7 +22,7 @@ impl Ltc {
 
     /// A direction of that density from two uniform numbers in \[0, 1). `a` is above 0.
     pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
-        SpecularLtc { a: self.a, b: self.b, c: self.a }.sample(uniforms)
+        Ltc { a: self.a, b: self.b, c: self.a }.sample(uniforms)
     }
 
     /// The density and its derivatives by ln(a) and by b.
@@ -40,16 +40,16 @@ impl Ltc {
 
 /// The inverse matrix (a, 0, b), (0, c, 0), (0, 0, 1), by rows: of a lobe that is longer than wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpecularLtc {
+pub struct Ltc {
     pub a: f64,
     pub b: f64,
     pub c: f64,
 }
 
-impl SpecularLtc {
+impl Ltc {
     /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
     ///
-    /// a c z / (pi |v|^4) with v = M^-1 wo, as for [`Ltc::density`].
+    /// a c z / (pi |v|^4) with v = M^-1 wo, as for [`SheenLtc::density`].
     #[inline]
     pub fn density(&self, wo: DVec3) -> f64 {
         let (x, y, z) = (self.a * wo.x + self.b * wo.z, self.c * wo.y, wo.z);

@@ -1,6 +1,6 @@
 //! The tables: grids, their lookup, and their files.
 //!
-//! [`LtcTable`], for real time, holds `(a, b, r)` over `(alpha, mu)`:
+//! [`SheenTable`], for real time, holds `(a, b, r)` over `(alpha, mu)`:
 //!
 //! | column | meaning | range |
 //! |---|---|---|
@@ -24,7 +24,7 @@ pub mod slab;
 mod slab_dds;
 
 pub use ggx::{GgxLobe, GgxTable};
-pub use ltc::{Ltc, SpecularLtc};
+pub use ltc::{Ltc, SheenLtc};
 pub use slab::{LEAST_SLAB_ALPHA, SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp, slab_alpha};
 
 use csv::Columns;
@@ -38,7 +38,7 @@ use std::path::{Path, PathBuf};
 /// Most nodes that a side of a table may have. A shipped table has 32; a million cells are more than any lobe needs.
 pub const MAX_SIDE: usize = 1024;
 
-/// Longest file that [`LtcTable::load`] reads, in bytes: room for the largest table as text.
+/// Longest file that [`SheenTable::load`] reads, in bytes: room for the largest table as text.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// How far the `alpha` and `mu` columns of a file may be from the nodes.
@@ -71,12 +71,12 @@ pub enum TableError {
 
 /// A grid of transformed cosines: `a`, `b`, `r` at the nodes of `(alpha, mu)`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LtcTable {
+pub struct SheenTable {
     /// `[a, b, r]` over (alpha, mu).
     grid: Grid<3>,
 }
 
-impl LtcTable {
+impl SheenTable {
     /// A table of `size` (alpha, mu) nodes from its alpha-major cells `[a, b, r]`.
     ///
     /// Panics unless both sides are in `[2, MAX_SIDE]`, the count fits and every cell obeys the column ranges.

@@ -9,7 +9,7 @@ use super::ViewerError;
 use super::state::{Change, State};
 use crate::picture::write_atomically;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// Samples a pixel of screenshots, and of the window where there is hardware to draw it.
 const SAMPLES: u32 = 4;
@@ -44,7 +44,7 @@ impl Frame {
         gpu: Gpu,
         size: [u32; 2],
         state: &State,
-        table: &LtcTable,
+        table: &SheenTable,
     ) -> Result<Self, ViewerError> {
         let configuration = surface
             .get_default_config(&gpu.adapter, size[0].max(1), size[1].max(1))
@@ -176,7 +176,7 @@ impl Frame {
     }
 
     /// Saves the picture as it is shown, without the panel, into the current folder; says where, or why not.
-    pub fn screenshot(&self, state: &State, table: &LtcTable) -> String {
+    pub fn screenshot(&self, state: &State, table: &SheenTable) -> String {
         let Some(path) = free_name() else { return "velour-001.png to velour-999.png are taken".to_owned() };
         let size = [self.place.width, self.place.height];
         let samples = RadianceFormat::display(&self.gpu.adapter, SAMPLES).map_or(1, |format| format.samples);

@@ -15,7 +15,7 @@ use winit::event_loop::EventLoop;
 
 use crate::renderer::{DeviceError, RenderError};
 use crate::scene::Scene;
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// The window could not be opened, or not kept.
 #[derive(Debug, thiserror::Error)]
@@ -42,7 +42,7 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
 }
 
 /// Shows the scene, which is called `name`, until the window is closed.
-pub fn run(event_loop: EventLoop<()>, name: &str, scene: Scene, table: LtcTable) -> Result<(), ViewerError> {
+pub fn run(event_loop: EventLoop<()>, name: &str, scene: Scene, table: SheenTable) -> Result<(), ViewerError> {
     let mut app = window::App::new(state::State::new(name, scene), table);
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
     app.failure.map_or(Ok(()), Err)

@@ -14,12 +14,12 @@ use super::ViewerError;
 use super::frame::{Frame, Presented};
 use super::state::{Change, State};
 use crate::renderer::device;
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// The program between its events.
 pub(super) struct App {
     state: State,
-    table: LtcTable,
+    table: SheenTable,
     /// From the first `resumed` on.
     open: Option<Open>,
     /// Why the loop was left, if not by the user.
@@ -44,7 +44,7 @@ struct Pending {
 }
 
 impl App {
-    pub fn new(state: State, table: LtcTable) -> Self {
+    pub fn new(state: State, table: SheenTable) -> Self {
         Self { state, table, open: None, failure: None }
     }
 

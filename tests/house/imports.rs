@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::{files, read, root};
 
-/// Each module at the top of the library, and those that it may import. `main` sees all.
+/// Each module at the top of the library, and those that it may import. the binary sees all.
 const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("math", &[]),
     ("file", &[]),
@@ -33,7 +33,7 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
 fn module_of(file: &Path) -> Option<Vec<String>> {
     let mut path: Vec<String> =
         file.with_extension("").iter().map(|part| part.to_str().expect("a name in UTF-8").to_owned()).collect();
-    if path[0] == "main" {
+    if path[0] == "bin" {
         return None;
     }
     if path.last().is_some_and(|last| last == "mod" || last == "lib") {
@@ -155,7 +155,7 @@ fn the_order_has_no_cycle() {
 #[test]
 fn planted_violations_are_found() {
     for (file, source) in [
-        ("math/mod.rs", "use crate::table::LtcTable;"),
+        ("math/mod.rs", "use crate::table::SheenTable;"),
         ("math/deep/er.rs", "use crate::{\n    math::warp,\n    fit::{self, lobe}};"),
         ("math/mod.rs", "use {std::fs, crate::fit as tailor};"),
         ("table/csv.rs", "fn f() -> crate :: renderer :: Gpu { todo!() }"),
@@ -181,7 +181,7 @@ fn planted_violations_are_found() {
 #[test]
 fn what_the_order_allows_is_let_pass() {
     for (file, source) in [
-        ("fit/mod.rs", "use crate::{math::warp, physics, table::{LtcTable, MAX_SIDE}};"),
+        ("fit/mod.rs", "use crate::{math::warp, physics, table::{SheenTable, MAX_SIDE}};"),
         ("fit/lobe.rs", "use super::grid; use super::super::physics; pub(crate) fn f() {} pub(super) fn g() {}"),
         ("fit/lobe.rs", "mod tests { use super::*; use super::super::grid; }"),
         (
@@ -189,8 +189,8 @@ fn what_the_order_allows_is_let_pass() {
             "/* crate::fit */ // crate::fit\nconst S: &str = \"crate::fit\"; /// crate::fit\nfn f<'a>() { 'x'; }",
         ),
         ("math/mod.rs", "const R: &str = r#\"use crate::\"fit\";\"#; const C: char = '\"';"),
-        ("main.rs", "use crate::anything;"),
-        ("main/draw.rs", "use crate::anything;"),
+        ("bin/velour/main.rs", "use crate::anything;"),
+        ("bin/velour/draw.rs", "use crate::anything;"),
         ("lib.rs", "pub mod fit;"),
     ] {
         assert_eq!(violations(Path::new(file), source), [""; 0], "{file}: {source}");

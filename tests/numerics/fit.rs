@@ -8,14 +8,14 @@ use velour::fit::lobe::Lobes;
 use velour::fit::sheen;
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
-use velour::table::{Ltc, LtcTable};
+use velour::table::{SheenLtc, SheenTable};
 
-const SOME: [Ltc; 5] = [
-    Ltc { a: 1.0, b: 0.0 },
-    Ltc { a: 0.5, b: -0.2 },
-    Ltc { a: 0.1, b: -0.15 },
-    Ltc { a: 0.02, b: -0.1 },
-    Ltc { a: 0.004, b: -0.04 },
+const SOME: [SheenLtc; 5] = [
+    SheenLtc { a: 1.0, b: 0.0 },
+    SheenLtc { a: 0.5, b: -0.2 },
+    SheenLtc { a: 0.1, b: -0.15 },
+    SheenLtc { a: 0.02, b: -0.1 },
+    SheenLtc { a: 0.004, b: -0.04 },
 ];
 
 fn lobes(alpha: f64) -> Lobes {
@@ -40,16 +40,16 @@ fn density_integrates_to_one() {
 #[test]
 fn density_is_the_cosines_at_the_identity() {
     let wo = DVec3::new(0.48, 0.6, 0.64);
-    assert!((Ltc { a: 1.0, b: 0.0 }.density(wo) - 0.64 / std::f64::consts::PI).abs() < 1e-15);
+    assert!((SheenLtc { a: 1.0, b: 0.0 }.density(wo) - 0.64 / std::f64::consts::PI).abs() < 1e-15);
 }
 
 #[test]
 fn slopes_are_the_densitys() {
     let wo = DVec3::new(0.48, 0.6, 0.64);
     let step = 1e-5;
-    for Ltc { a, b } in SOME {
-        let at = |ln_a: f64, b: f64| Ltc { a: ln_a.exp(), b }.density(wo);
-        let (density, slopes) = Ltc { a, b }.density_and_slopes(wo);
+    for SheenLtc { a, b } in SOME {
+        let at = |ln_a: f64, b: f64| SheenLtc { a: ln_a.exp(), b }.density(wo);
+        let (density, slopes) = SheenLtc { a, b }.density_and_slopes(wo);
         let by_ln_a = (at(a.ln() + step, b) - at(a.ln() - step, b)) / (2.0 * step);
         let by_b = (at(a.ln(), b + step) - at(a.ln(), b - step)) / (2.0 * step);
         for (slope, difference) in slopes.into_iter().zip([by_ln_a, by_b]) {
@@ -64,7 +64,7 @@ fn a_transformed_cosine_is_fitted_by_itself() {
     let hemisphere = hemisphere();
     for truth in SOME {
         let shape: Vec<f64> = hemisphere.nodes.iter().map(|&wo| truth.density(wo)).collect();
-        let start = Ltc { a: truth.a * 1.5, b: truth.b - 0.1 };
+        let start = SheenLtc { a: truth.a * 1.5, b: truth.b - 0.1 };
         let found = fit(&shape, &hemisphere, start, Free::Both);
         assert!((found.a / truth.a - 1.0).abs() < 1e-6 && (found.b - truth.b).abs() < 1e-6, "{truth:?}: {found:?}");
     }
@@ -73,9 +73,9 @@ fn a_transformed_cosine_is_fitted_by_itself() {
 #[test]
 fn fitted_b_is_not_above_0() {
     let hemisphere = hemisphere();
-    let leaning_away = Ltc { a: 0.5, b: 0.2 };
+    let leaning_away = SheenLtc { a: 0.5, b: 0.2 };
     let shape: Vec<f64> = hemisphere.nodes.iter().map(|&wo| leaning_away.density(wo)).collect();
-    let found = fit(&shape, &hemisphere, Ltc { a: 1.0, b: -0.1 }, Free::Both);
+    let found = fit(&shape, &hemisphere, SheenLtc { a: 1.0, b: -0.1 }, Free::Both);
     assert_eq!(found.b, 0.0);
     assert!(found.a > LEAST_A);
 }
@@ -101,13 +101,13 @@ fn a_fit_is_the_minimum_from_wherever_it_starts() {
         let lobes = lobes(alpha);
         let shape = lobes.shape(mu);
         let error = |ltc| squared_error(&shape, &lobes.hemisphere, ltc);
-        let found = fit(&shape, &lobes.hemisphere, Ltc { a: alpha, b: -0.01 }, Free::Both);
+        let found = fit(&shape, &lobes.hemisphere, SheenLtc { a: alpha, b: -0.01 }, Free::Both);
         for (a, b) in [(1.01, 0.0), (0.99, 0.0), (1.0, 0.003), (1.0, -0.003)] {
-            let near = Ltc { a: found.a * a, b: (found.b + b).min(0.0) };
+            let near = SheenLtc { a: found.a * a, b: (found.b + b).min(0.0) };
             assert!(near == found || error(near) > error(found), "alpha {alpha}, mu {mu}: {near:?} beats {found:?}");
         }
         for (a, b) in starts {
-            let other = fit(&shape, &lobes.hemisphere, Ltc { a, b }, Free::Both);
+            let other = fit(&shape, &lobes.hemisphere, SheenLtc { a, b }, Free::Both);
             let better = error(found) - error(other);
             assert!(better < 1e-9 * error(found), "alpha {alpha}, mu {mu}: {other:?} from {a}, {b} beats {found:?}");
         }
@@ -139,7 +139,7 @@ fn r_is_better_between_the_nodes_than_the_albedo_at_them() {
     let fitted = albedo::fit(n, &samples, &plain);
     assert!(fitted.iter().all(|r| (0.0..=1.0).contains(r)));
     let error = |r: &[f64]| {
-        let table = LtcTable::new([n; 2], r.iter().map(|&r| [1.0, 0.0, r]).collect());
+        let table = SheenTable::new([n; 2], r.iter().map(|&r| [1.0, 0.0, r]).collect());
         let places = samples.alphas.iter().flat_map(|&alpha| samples.mus.iter().map(move |&mu| (alpha, mu)));
         let pairs = places.zip(&samples.values).filter(|(_, value)| **value > 1e-3);
         let errors: Vec<f64> =
@@ -169,7 +169,7 @@ fn small_fit_obeys_the_conventions() {
         assert_eq!(table.cell(0, i), [a, b, 0.0]);
     }
     assert!(report.lobe.mean > 0.03 && report.lobe.mean < 0.25, "{report}");
-    assert_eq!(LtcTable::from_csv(&table.to_csv(&report.header())).expect("a written table"), table);
+    assert_eq!(SheenTable::from_csv(&table.to_csv(&report.header())).expect("a written table"), table);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use half::f16;
 use velour::math::sine;
 use velour::table::ggx::{GRAZING_MU, LEAST_ASPECT};
-use velour::table::{GgxTable, SpecularLtc};
+use velour::table::{GgxTable, Ltc};
 
 use crate::direction;
 
@@ -23,7 +23,7 @@ fn lookup_is_bilinear_in_roughness_and_t() {
     // Between the first four nodes, k = 0 to 3, at the middle.
     let [u, v, s] = [0.15, -0.045, 0.45];
     let lobe = table.lookup(roughness, mu);
-    let SpecularLtc { a, b, c } = lobe.ltc;
+    let Ltc { a, b, c } = lobe.ltc;
     for (found, expected) in [
         (c, 1.0 / (s * s)),
         (a / c, mu * mu + u),
@@ -48,7 +48,7 @@ fn a_table_that_falls_below_0_keeps_its_matrix_invertible() {
 #[test]
 fn densities_are_what_samples_have() {
     // Weights uniform / density average the hemisphere's solid angle, as far as samples reach.
-    for ltc in [SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }, SpecularLtc { a: 0.6, b: 0.5, c: 1.7 }] {
+    for ltc in [Ltc { a: 1.0, b: 0.0, c: 1.0 }, Ltc { a: 0.6, b: 0.5, c: 1.7 }] {
         let n = 400;
         let places = |k: usize| (k as f64 + 0.5) / f64::from(n);
         let count = n as usize;
@@ -64,7 +64,7 @@ fn densities_are_what_samples_have() {
         let wo = ltc.sample([0.3, 0.2]);
         assert!((wo.length() - 1.0).abs() < 1e-12 && wo.z > 0.0);
     }
-    assert_eq!(SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }.density(direction(-0.3, 0.0)), 0.0);
+    assert_eq!(Ltc { a: 1.0, b: 0.0, c: 1.0 }.density(direction(-0.3, 0.0)), 0.0);
 }
 
 #[test]

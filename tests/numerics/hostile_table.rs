@@ -1,25 +1,25 @@
 //! Table files that must be refused: with one line that says what, where and what to do, and without a panic.
 
 use std::path::Path;
-use velour::table::{LtcTable, MAX_FILE_BYTES};
+use velour::table::{MAX_FILE_BYTES, SheenTable};
 
 const ROWS: &str = "0,0,1,0,0\n0,1,1,0,0\n1,0,1,0,0\n1,1,1,0,0\n";
 
 fn csv_error(text: &str) -> String {
-    let error = LtcTable::from_csv(text).expect_err(text).to_string();
+    let error = SheenTable::from_csv(text).expect_err(text).to_string();
     assert!(!error.contains('\n') && error.len() < 300, "one line: {error}");
     error
 }
 
 fn dds_error(bytes: &[u8]) -> String {
-    let error = LtcTable::from_dds(bytes).expect_err("a bad texture").to_string();
+    let error = SheenTable::from_dds(bytes).expect_err("a bad texture").to_string();
     assert!(!error.contains('\n') && error.len() < 300, "one line: {error}");
     error
 }
 
 /// A good texture of 2 x 2 texels, to be broken.
 fn texture() -> Vec<u8> {
-    LtcTable::from_csv(ROWS).expect("good rows").to_dds()
+    SheenTable::from_csv(ROWS).expect("good rows").to_dds()
 }
 
 /// `texture()` with the little-endian `value` at byte `at`.
@@ -138,7 +138,7 @@ fn no_flipped_bit_panics() {
         let mut bytes = good.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
         // Most are refused, some are other tables: none may panic.
-        let _ = LtcTable::from_dds(&bytes);
+        let _ = SheenTable::from_dds(&bytes);
     }
 }
 
@@ -147,7 +147,7 @@ fn bad_files_are_named() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = |name: &str| folder.path().join(name);
     let error = |path: &Path| {
-        let error = LtcTable::load(path).expect_err("a bad file").to_string();
+        let error = SheenTable::load(path).expect_err("a bad file").to_string();
         assert!(error.starts_with(&format!("{}: ", path.display())) && !error.contains('\n'), "{error}");
         error
     };

@@ -12,7 +12,7 @@ use velour::math::warp::uniform;
 use velour::models::{Bsdf, LtcSheen, Sample, SlabSheen};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
-use velour::table::{LtcTable, SlabTable};
+use velour::table::{SheenTable, SlabTable};
 
 /// (alpha, mu): fuzz to dust, grazing to steep.
 const CELLS: [(f64, f64); 10] = [
@@ -29,7 +29,7 @@ const CELLS: [(f64, f64); 10] = [
 ];
 
 fn ltc(alpha: f64) -> LtcSheen {
-    LtcSheen::new(&LtcTable::embedded(), alpha)
+    LtcSheen::new(&SheenTable::embedded(), alpha)
 }
 
 fn slab(alpha: f64) -> SlabSheen {
@@ -195,11 +195,11 @@ fn the_slab_is_the_solved_one() {
 
 #[test]
 fn the_transformed_cosine_is_the_tables() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for (alpha, mu) in CELLS {
         let [a, b, r] = table.lookup(alpha, mu);
         let (model, wo) = (ltc(alpha), direction(0.3, 0.7));
-        let value = r * velour::table::Ltc { a, b }.density(wo);
+        let value = r * velour::table::SheenLtc { a, b }.density(wo);
         let found = model.evaluate(direction(mu, 0.0), wo);
         assert!((found / value - 1.0).abs() < 1e-12, "alpha {alpha}, mu {mu}: {found}, {value}");
         assert!((model.albedo(mu) - r).abs() < 1e-15);

@@ -7,7 +7,7 @@ use velour::fit::ggx::{QUADRATURE, RESOLUTION, albedo, cosine, distance, fit, gg
 use velour::math::sine;
 use velour::physics::microfacet::{Ggx, LEAST_ALPHA};
 use velour::table::ggx::GRAZING_MU;
-use velour::table::{GgxTable, SpecularLtc, centres, node};
+use velour::table::{GgxTable, Ltc, centres, node};
 
 /// L1 distance of the lobe at `mu` over its albedo and what is looked up.
 fn error(table: &GgxTable, roughness: f64, mu: f64) -> f64 {
@@ -78,7 +78,7 @@ fn a_sharp_lobe_points_where_a_mirror_does() {
         let alpha = (roughness * roughness).max(LEAST_ALPHA);
         // Between the nodes above all.
         for mu in (1..200).map(|k| f64::from(k) / 200.0).filter(|mu| *mu > 20.0 * alpha && *mu > GRAZING_MU) {
-            let SpecularLtc { a, b, c } = table.lookup(roughness, mu).ltc;
+            let Ltc { a, b, c } = table.lookup(roughness, mu).ltc;
             // Where M^-1 wo is the axis, the density is greatest for a narrow lobe.
             let peak = DVec3::new(-b / a, 0.0, 1.0).normalize();
             let off = peak.dot(DVec3::new(mu, 0.0, sine(mu)));
@@ -119,18 +119,14 @@ fn a_fit_is_a_minimum_and_recovers_what_it_may() {
     let table = GgxTable::embedded();
     let ggx = Ggx::from_roughness(roughness);
     let start = table.lookup(roughness, mu).ltc;
-    let round = SpecularLtc { a: 1.0, b: 0.0, c: 1.0 };
+    let round = Ltc { a: 1.0, b: 0.0, c: 1.0 };
     let [near, far] = [start, round].map(|start| fit(ggx, mu, [start; 2]));
     let close = |one: f64, other: f64| (one - other).abs() < 1e-3 * (1.0 + other.abs());
     assert!(close(near.ltc.a, far.ltc.a) && close(near.ltc.b, far.ltc.b) && close(near.ltc.c, far.ltc.c), "{far:?}");
     let nodes = ggx.quadrature(mu, QUADRATURE);
     for factor in [0.99, 1.01] {
-        let SpecularLtc { a, b, c } = near.ltc;
-        for wrong in [
-            SpecularLtc { a: a * factor, b, c },
-            SpecularLtc { a, b: b * factor, c },
-            SpecularLtc { a, b, c: c * factor },
-        ] {
+        let Ltc { a, b, c } = near.ltc;
+        for wrong in [Ltc { a: a * factor, b, c }, Ltc { a, b: b * factor, c }, Ltc { a, b, c: c * factor }] {
             assert!(distance(&nodes, albedo(&nodes), wrong) > near.distance, "{wrong:?}");
         }
     }

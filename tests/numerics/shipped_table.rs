@@ -6,7 +6,7 @@ use velour::fit::{DIM, Errors, GRAZING_MU, sheen};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
 use velour::physics::walk::{FirstFlight, Walk};
-use velour::table::{Ltc, LtcTable};
+use velour::table::{SheenLtc, SheenTable};
 
 use crate::statistics::assert_within;
 
@@ -22,7 +22,7 @@ fn solve(i: usize) -> Transport {
 
 #[test]
 fn every_node_is_invertible_and_obeys_the_conventions() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     assert_eq!(table.size(), [NODES; 2]);
     for i in 0..NODES {
         for j in 0..NODES {
@@ -40,7 +40,7 @@ fn every_node_is_invertible_and_obeys_the_conventions() {
 #[test]
 fn texture_holds_the_same_numbers() {
     let bytes = include_bytes!("../../tables/sheen_ltc.dds");
-    assert_eq!(LtcTable::embedded().to_dds(), bytes);
+    assert_eq!(SheenTable::embedded().to_dds(), bytes);
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn header_tells_how_it_was_made() {
 
 /// The largest distance of a node's value from the middle of its two neighbours, along alpha or mu, over the nodes with
 /// alpha > 0 where all three have r above `least_r`, and which are not below node `corner` in both axes.
-fn bumpiness(table: &LtcTable, least_r: f64, corner: usize, value: impl Fn([f64; 3]) -> f64) -> f64 {
+fn bumpiness(table: &SheenTable, least_r: f64, corner: usize, value: impl Fn([f64; 3]) -> f64) -> f64 {
     let mut largest = 0.0_f64;
     for k in 1..NODES {
         for middle in 2..NODES - 1 {
@@ -76,7 +76,7 @@ const CORNER_OF_R: usize = 5;
 /// The same for all nodes. At (1/31, 2/31) ln(a) bends sharply, where the lobe goes dark one node from the horizon.
 const SMOOTH_IN_THE_DARK: [f64; 3] = [0.2, 0.025, 0.05];
 
-fn bumpinesses(table: &LtcTable, least_r: f64) -> [f64; 3] {
+fn bumpinesses(table: &SheenTable, least_r: f64) -> [f64; 3] {
     [
         bumpiness(table, least_r, 0, |[a, _, _]| a.ln()),
         bumpiness(table, least_r, 0, |[_, b, _]| b),
@@ -86,7 +86,7 @@ fn bumpinesses(table: &LtcTable, least_r: f64) -> [f64; 3] {
 
 #[test]
 fn nodes_are_smooth_with_their_neighbours() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for (least_r, limits) in [(1e-3, SMOOTH), (0.0, SMOOTH_IN_THE_DARK)] {
         let found = bumpinesses(&table, least_r);
         assert!(found.iter().zip(limits).all(|(found, limit)| *found < limit), "r > {least_r}: {found:?}");
@@ -95,12 +95,12 @@ fn nodes_are_smooth_with_their_neighbours() {
 
 #[test]
 fn a_node_out_of_line_is_told() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let [a, b, r] = table.cell(12, 9);
     for wrong in [[a * 1.3, b, r], [a, b - 0.04, r], [a, b, r + 0.1]] {
         let mut cells = table.cells().to_vec();
         cells[12 * NODES + 9] = wrong;
-        let found = bumpinesses(&LtcTable::new([NODES; 2], cells), 1e-3);
+        let found = bumpinesses(&SheenTable::new([NODES; 2], cells), 1e-3);
         assert!(found.iter().zip(SMOOTH).any(|(found, limit)| *found > limit), "{wrong:?}: {found:?}");
     }
 }
@@ -108,7 +108,7 @@ fn a_node_out_of_line_is_told() {
 #[test]
 fn the_table_is_what_the_code_makes() {
     let (table, report) = sheen(NODES, |_, _| ());
-    let shipped = LtcTable::embedded();
+    let shipped = SheenTable::embedded();
     // Bits are the same on one machine; others round matrix products otherwise, though hardly in the header's four digits.
     assert!(shipped.half_steps(&table).is_some_and(|steps| steps <= 1), "velour fit makes another table");
     let text = include_str!("../../tables/sheen_ltc.csv");
@@ -126,7 +126,7 @@ fn the_table_is_what_the_code_makes() {
 
 #[test]
 fn r_leaves_the_albedo_where_that_rises_steeply() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     // Smallest and largest r / R at nodes with R > 1e-3, and mu > 0.
     let ratios = |i: usize| {
         let solution = solve(i);
@@ -146,7 +146,7 @@ fn r_leaves_the_albedo_where_that_rises_steeply() {
 #[test]
 fn albedos_agree_with_fresh_walks() {
     // Where bilinear interpolation is good, at points between the nodes, with bounds of their own on what it leaves.
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for (alpha, mu, bend) in
         [(0.95, 0.55, 1e-3), (0.62, 0.37, 2e-3), (0.45, 0.21, 4e-3), (0.33, 0.11, 6e-3), (0.25, 0.4, 6e-3)]
     {
@@ -160,29 +160,29 @@ fn albedos_agree_with_fresh_walks() {
 
 #[test]
 fn matrices_are_the_best_for_their_lobes() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for (i, j) in SOME {
         let lobes = Lobes::new(solve(i));
         let mu = (j as f64 / 31.0).max(GRAZING_MU);
         let shape = lobes.shape(mu);
         let [a, b, _] = table.cell(i, j);
-        let shipped = Ltc { a, b };
+        let shipped = SheenLtc { a, b };
         let free = if mu == 1.0 { Free::OnlyA } else { Free::Both };
         let error = |ltc| squared_error(&shape, &lobes.hemisphere, ltc);
-        let start = Ltc { a: 0.3, b: if mu == 1.0 { 0.0 } else { -0.05 } };
+        let start = SheenLtc { a: 0.3, b: if mu == 1.0 { 0.0 } else { -0.05 } };
         let least = error(fit(&shape, &lobes.hemisphere, start, free));
         assert!(error(shipped) < least * (1.0 + 1e-6), "node ({i}, {j}): {shipped:?} is not the best");
-        let wrong = Ltc { a: a * 1.02, b };
+        let wrong = SheenLtc { a: a * 1.02, b };
         assert!(error(wrong) > least * (1.0 + 1e-6), "node ({i}, {j}): {wrong:?} passes");
     }
 }
 
 #[test]
 fn half_steps_count() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let mut cells = table.cells().to_vec();
     cells[100][1] *= 1.003;
-    let steps = table.half_steps(&LtcTable::new([NODES; 2], cells)).expect("the same size");
+    let steps = table.half_steps(&SheenTable::new([NODES; 2], cells)).expect("the same size");
     assert!((2..=4).contains(&steps), "0.3% is some three steps of 2^-10: {steps}");
-    assert_eq!(table.half_steps(&LtcTable::new([2; 2], vec![[1.0, 0.0, 0.0]; 4])), None);
+    assert_eq!(table.half_steps(&SheenTable::new([2; 2], vec![[1.0, 0.0, 0.0]; 4])), None);
 }

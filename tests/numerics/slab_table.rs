@@ -4,7 +4,7 @@ use half::f16;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use velour::fit::slab::{layer, slab};
-use velour::table::{LEAST_SLAB_ALPHA, LtcTable, MAX_FILE_BYTES, SLAB_SIDE, SlabTable, SlabWarp, slab_alpha};
+use velour::table::{LEAST_SLAB_ALPHA, MAX_FILE_BYTES, SLAB_SIDE, SheenTable, SlabTable, SlabWarp, slab_alpha};
 
 const HEADER_BYTES: usize = 148;
 
@@ -172,7 +172,7 @@ fn truncated_and_longer_volumes_are_refused() {
 #[test]
 fn textures_of_other_kinds_are_refused() {
     assert!(error(b"\x89PNG\r\n\x1a\n and so on").contains("no .dds texture"));
-    assert!(error(&LtcTable::embedded().to_dds()).contains("no volume"));
+    assert!(error(&SheenTable::embedded().to_dds()).contains("no volume"));
     // Height, width, depth.
     for at in [12, 16, 24] {
         for side in [0, 1, 31, 33, u32::MAX] {

@@ -1,10 +1,10 @@
 use half::f16;
-use velour::table::{LtcTable, MAX_SIDE};
+use velour::table::{MAX_SIDE, SheenTable};
 
 /// 3 x 2 nodes, all numbers different.
-fn small() -> LtcTable {
+fn small() -> SheenTable {
     let cells = (0..6).map(|k| [0.1 + f64::from(k), -f64::from(k) / 64.0 + 0.0, f64::from(k) / 8.0]).collect();
-    LtcTable::new([3, 2], cells)
+    SheenTable::new([3, 2], cells)
 }
 
 #[test]
@@ -26,13 +26,13 @@ fn csv_round_trip_is_exact() {
     let table = small();
     let text = table.to_csv(&["first".to_owned(), String::new(), "third, with \"quotes".to_owned()]);
     assert!(text.starts_with("# first\n#\n# third, with \"quotes\nalpha,mu,a,b,r\n0,0,0.1,0,0\n"), "{text}");
-    assert_eq!(LtcTable::from_csv(&text).expect("a written table"), table);
+    assert_eq!(SheenTable::from_csv(&text).expect("a written table"), table);
 }
 
 #[test]
 fn csv_is_read_in_every_dress() {
     let rows = "0,0,1,0,0\n0,1,1,0.5,0.25\n1,0,0,-1e-3,1\n1,1,.5,0,0.75";
-    let table = LtcTable::from_csv(rows).expect("bare rows");
+    let table = SheenTable::from_csv(rows).expect("bare rows");
     assert_eq!(table.cell(0, 1), [1.0, 0.5, 0.25]);
     let dresses = [
         format!("{rows}\n"),
@@ -43,7 +43,7 @@ fn csv_is_read_in_every_dress() {
         rows.replace("0,1,1", "0.00009,0.99991,1"),
     ];
     for dress in dresses {
-        assert_eq!(LtcTable::from_csv(&dress).unwrap_or_else(|error| panic!("{error}: {dress}")), table);
+        assert_eq!(SheenTable::from_csv(&dress).unwrap_or_else(|error| panic!("{error}: {dress}")), table);
     }
 }
 
@@ -54,7 +54,7 @@ fn dds_round_trip_is_the_nearest_half() {
     // Magic, header, DX10 header; 8 bytes a texel.
     assert_eq!(bytes.len(), 4 + 124 + 20 + 6 * 8);
     assert_eq!(&bytes[84..88], b"DX10");
-    let read = LtcTable::from_dds(&bytes).expect("a written table");
+    let read = SheenTable::from_dds(&bytes).expect("a written table");
     assert_eq!(read.size(), [3, 2]);
     for (read, written) in read.cells().iter().zip(table.cells()) {
         assert_eq!(*read, written.map(|value| f16::from_f64(value).to_f64()));
@@ -74,7 +74,7 @@ fn dds_of_floats_is_read() {
     // DXGI_FORMAT_R32G32B32A32_FLOAT.
     bytes[128..132].copy_from_slice(&2_u32.to_le_bytes());
     bytes.extend(table.texels().as_flattened().iter().flat_map(|value| value.to_le_bytes()));
-    let read = LtcTable::from_dds(&bytes).expect("a table of floats");
+    let read = SheenTable::from_dds(&bytes).expect("a table of floats");
     assert_eq!(read.texels(), table.texels());
     assert_eq!(read.checksum(), table.checksum());
 }
@@ -95,14 +95,14 @@ fn checksum_tells_tables_apart() {
     let table = small();
     let mut cells = table.cells().to_vec();
     cells[3][1] += 1e-6;
-    assert_ne!(LtcTable::new([3, 2], cells).checksum(), table.checksum());
+    assert_ne!(SheenTable::new([3, 2], cells).checksum(), table.checksum());
 }
 
 #[test]
 fn the_largest_table_is_read() {
-    let table = LtcTable::new([MAX_SIDE, 2], vec![[0.123_456_7, -0.123_456_7, 0.5]; MAX_SIDE * 2]);
-    assert_eq!(LtcTable::from_csv(&table.to_csv(&[])).expect("a written table"), table);
-    assert_eq!(LtcTable::from_dds(&table.to_dds()).expect("a written table").size(), [MAX_SIDE, 2]);
+    let table = SheenTable::new([MAX_SIDE, 2], vec![[0.123_456_7, -0.123_456_7, 0.5]; MAX_SIDE * 2]);
+    assert_eq!(SheenTable::from_csv(&table.to_csv(&[])).expect("a written table"), table);
+    assert_eq!(SheenTable::from_dds(&table.to_dds()).expect("a written table").size(), [MAX_SIDE, 2]);
 }
 
 #[test]
@@ -112,6 +112,6 @@ fn files_are_told_apart_by_extension() {
     let [text, texture] = ["t.CSV", "t.dds"].map(|name| folder.path().join(name));
     std::fs::write(&text, table.to_csv(&[])).expect("writing in the test's folder");
     std::fs::write(&texture, table.to_dds()).expect("writing in the test's folder");
-    assert_eq!(LtcTable::load(&text).expect("a written table"), table);
-    assert_eq!(LtcTable::load(&texture).expect("a written table").size(), [3, 2]);
+    assert_eq!(SheenTable::load(&text).expect("a written table"), table);
+    assert_eq!(SheenTable::load(&texture).expect("a written table").size(), [3, 2]);
 }

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use serde_json::{Value, json};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::run::{Bench, small_stage};
 use super::stage::container;
@@ -198,7 +198,7 @@ fn scenes_with_something_wrong() {
 #[test]
 fn tables_with_something_wrong() {
     let bench = Bench::new();
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let (text, texture) = (table.to_csv(&[]), table.to_dds());
     let line = |number: usize, new: &str| {
         let mut lines: Vec<&str> = text.lines().collect();

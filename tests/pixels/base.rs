@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use velour::scene::{Layering, Lobes, Material, Overrides, Projection, RoughnessMap, Settings, Sheen};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{SIZE, hold, linear};
 use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
@@ -97,7 +97,7 @@ fn furnace(materials: Vec<Material>, settings: &Settings) -> Vec<Vec3> {
     things.push(Thing::rectangle([1e4, 1e4], glow([1.0; 3])).placed(facing([0.0, 1.0, 0.0], ORIGIN)));
     let mut stage = Stage::new(things, looking([0.0, 0.9, 0.0], [0.0, 0.0, -1.2]));
     stage.projection = Projection::Perspective { yfov: 2.2, near: 0.01, far: 1e3 };
-    let picture = linear(&stage.scene(), &LtcTable::embedded(), settings, [64, 96]);
+    let picture = linear(&stage.scene(), &SheenTable::embedded(), settings, [64, 96]);
     picture.pixels.into_iter().map(Vec3::from).collect()
 }
 
@@ -136,7 +136,7 @@ fn no_rule_gains_energy_in_a_furnace() {
 /// The reciprocal rule takes the light's side at one cosine for each light: against the integral over the light.
 #[test]
 fn the_reciprocal_rule_is_near_the_integral_over_the_light() {
-    let (table, settings) = (LtcTable::embedded(), layered(Layering::Reciprocal));
+    let (table, settings) = (SheenTable::embedded(), layered(Layering::Reciprocal));
     let mut worst = 0.0_f64;
     for roughness in [0.15, 0.3, 0.6, 1.0] {
         let sheen = Some(Sheen::new(Vec3::ONE, roughness));

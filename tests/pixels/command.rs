@@ -2,7 +2,7 @@
 
 use velour::picture::{DisplayImage, LinearImage, ToneCurve};
 use velour::scene::{Settings, gltf};
-use velour::table::{GgxTable, LtcTable, SlabTable};
+use velour::table::{GgxTable, SheenTable, SlabTable};
 
 use super::compare::{changed, differences, linear, sheen_alone};
 use super::run::{Bench, small_stage};
@@ -23,7 +23,7 @@ fn png(bench: &Bench, name: &str) -> DisplayImage {
 }
 
 /// Renders the stage by the binary with these flags beside `MEASURED`, and holds the picture against the truth.
-fn hold(stage: &Stage, flags: &str, table: &LtcTable, settings: &Settings) {
+fn hold(stage: &Stage, flags: &str, table: &SheenTable, settings: &Settings) {
     let bench = Bench::new();
     bench.put("stage.glb", stage.glb());
     bench.put("table.csv", table.to_csv(&["of a test".to_owned()]));
@@ -35,18 +35,18 @@ fn hold(stage: &Stage, flags: &str, table: &LtcTable, settings: &Settings) {
 
 #[test]
 fn a_linear_file_is_the_designs_sum_at_pixel_centres() {
-    hold(&small_stage(), "", &LtcTable::embedded(), &sheen_alone());
+    hold(&small_stage(), "", &SheenTable::embedded(), &sheen_alone());
     // Exposure and tone are no part of it, whatever is asked.
-    hold(&small_stage(), "--exposure 3", &LtcTable::embedded(), &sheen_alone());
+    hold(&small_stage(), "--exposure 3", &SheenTable::embedded(), &sheen_alone());
     let changed = changed(Some(0.8), Some([0.2, 0.4, 1.0].into()), sheen_alone());
-    hold(&small_stage(), "--alpha 0.8 --sheen-color 0.2,0.4,1", &LtcTable::embedded(), &changed);
+    hold(&small_stage(), "--alpha 0.8 --sheen-color 0.2,0.4,1", &SheenTable::embedded(), &changed);
 }
 
 #[test]
 fn another_table_is_read_from_either_format() {
     // Halves, so that both formats hold the same numbers.
     let cells = (0..12).map(|k| [0.25 + f64::from(k % 5) / 8.0, -f64::from(k % 3) / 4.0, f64::from(k) / 16.0]);
-    let table = LtcTable::new([4, 3], cells.collect());
+    let table = SheenTable::new([4, 3], cells.collect());
     hold(&small_stage(), "--sheen-table table.csv", &table, &sheen_alone());
     hold(&small_stage(), "--sheen-table table.dds", &table, &sheen_alone());
 }
@@ -127,7 +127,7 @@ fn the_adapter_is_chosen_by_a_part_of_its_name() {
     let part = name.split([' ', '(']).next().unwrap().to_uppercase();
     bench.run(&format!("render scene.glb -o out.png --size 16x16 --adapter {part}"));
     let checksums =
-        [LtcTable::embedded().checksum(), SlabTable::embedded().checksum(), GgxTable::embedded().checksum()];
+        [SheenTable::embedded().checksum(), SlabTable::embedded().checksum(), GgxTable::embedded().checksum()];
     for checksum in checksums {
         assert!(info.contains(&format!("{checksum:08x}")), "{info}");
     }
@@ -179,5 +179,5 @@ fn the_file_and_the_library_give_the_same_picture() {
     let bench = Bench::new();
     bench.run(&format!("render scene.glb -o out.exr {MEASURED}"));
     let scene = gltf::load(&bench.path("scene.glb")).unwrap();
-    assert_eq!(exr(&bench, "out.exr"), linear(&scene, &LtcTable::embedded(), &sheen_alone(), [96, 64]));
+    assert_eq!(exr(&bench, "out.exr"), linear(&scene, &SheenTable::embedded(), &sheen_alone(), [96, 64]));
 }

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::{Gpu, Offscreen, device};
 use velour::scene::{Lobes, Overrides, Scene, Settings, gltf};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::reference;
 use super::stage::Stage;
@@ -43,14 +43,14 @@ pub fn sheen_alone() -> Settings {
     Settings { lobes, lights_visible: false, ..Settings::default() }
 }
 
-pub fn linear(scene: &Scene, table: &LtcTable, settings: &Settings, size: [u32; 2]) -> LinearImage {
+pub fn linear(scene: &Scene, table: &SheenTable, settings: &Settings, size: [u32; 2]) -> LinearImage {
     let mut renderer = Offscreen::for_linear(&GPU, 1, table, scene, settings).unwrap();
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, settings)).unwrap()
 }
 
 /// Renders the stage, as a scene made here and as a file read, and holds both pictures against the truth and the reference.
 pub fn hold(stage: &Stage, settings: &Settings) {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let truth = Truth::new(stage, &table, settings, SIZE);
     let read = gltf::from_slice(&stage.glb(), "stage.glb").unwrap();
     assert_eq!(read.notices, [""; 0]);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
 use velour::scene::{Settings, gltf};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::GPU;
 
@@ -30,7 +30,7 @@ fn golden(name: &str) -> PathBuf {
 fn render(name: &str) -> DisplayImage {
     let scene = gltf::load(&root().join("assets").join(name).with_extension("glb")).unwrap();
     let settings = Settings::default();
-    let mut renderer = Offscreen::for_display(&GPU, 4, &LtcTable::embedded(), &scene, &settings).unwrap();
+    let mut renderer = Offscreen::for_display(&GPU, 4, &SheenTable::embedded(), &scene, &settings).unwrap();
     GPU.block_on(renderer.display(&GPU, &scene.cameras[0], SIZE, &settings, ToneCurve::default())).unwrap()
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use velour::scene::{Material, Projection, PunctualKind, PunctualLight, Settings};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, hold, linear, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
@@ -41,7 +41,7 @@ fn lights_without_extent_shine_through_the_same_lobes() {
     ] {
         let mut stage = Stage::new(vec![floor()], looking([0.4, 1.1, 2.6], ORIGIN));
         stage.punctual.push(light(kind));
-        let (table, settings) = (LtcTable::embedded(), unseen());
+        let (table, settings) = (SheenTable::embedded(), unseen());
         let picture = linear(&stage.scene(), &table, &settings, SIZE);
         differences(&picture, &Truth::new(&stage, &table, &settings, SIZE))
             .unwrap_or_else(|said| panic!("{kind:?}: {said}"));
@@ -77,7 +77,7 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
         let things = [vec![floor()], panels(count)].concat();
         Stage::new(things, looking([0.4, 1.1, 2.6], ORIGIN)).scene()
     };
-    let (table, settings) = (LtcTable::embedded(), unseen());
+    let (table, settings) = (SheenTable::embedded(), unseen());
     let mut scene = stage(12);
     let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
     let picture = |offscreen: &mut Offscreen, scene: &velour::scene::Scene| {
@@ -116,6 +116,6 @@ fn lights_at_the_very_point_that_they_light_give_numbers() {
             direction: Vec3::NEG_Y,
         });
     }
-    let picture = linear(&stage.scene(), &LtcTable::embedded(), &unseen(), [64, 64]);
+    let picture = linear(&stage.scene(), &SheenTable::embedded(), &unseen(), [64, 64]);
     assert!(picture.pixels.iter().flatten().all(|channel| channel.is_finite() && *channel >= 0.0));
 }

@@ -4,7 +4,7 @@
 use glam::{Mat4, Vec3};
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
 use velour::scene::{Layering, Lobes, Material, Overrides, Settings, Sheen, SheenModel};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
@@ -40,7 +40,7 @@ fn pictured(base: &Material, alpha: f32, overrides: Overrides, lobes: Lobes, sam
     let scene = Stage::new(vec![ball(material, 64), window], looking([0.0, 0.0, 3.5], [0.0; 3])).scene();
     let settings = Settings { overrides, lobes, lights_visible: false, ..Settings::default() };
     let options = Options { max_bounces: 0, shadows: false, filter: Filter::Centre, specular: SpecularModel::Ggx };
-    let reference = Reference::new(&scene, &settings, &LtcTable::embedded(), options).unwrap();
+    let reference = Reference::new(&scene, &settings, &SheenTable::embedded(), options).unwrap();
     reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
 }
 

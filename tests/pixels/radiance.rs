@@ -3,7 +3,7 @@
 use glam::{Mat4, Quat, Vec3};
 use velour::picture::LinearImage;
 use velour::scene::{Lobes, Material, Projection, Settings};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{SIZE, changed, differences, hold, linear, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
@@ -196,13 +196,13 @@ fn one_sheen_may_be_given_to_all() {
 }
 
 /// A table as unlike the shipped one as can be: every node has its own numbers, and the sides differ.
-fn odd_table() -> LtcTable {
+fn odd_table() -> SheenTable {
     let mut seed = 7u32;
     let mut random = || {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(seed >> 8) / f64::from(1 << 24)
     };
-    LtcTable::new([5, 9], (0..45).map(|_| [0.2 + random(), random() - 0.7, random()]).collect())
+    SheenTable::new([5, 9], (0..45).map(|_| [0.2 + random(), random() - 0.7, random()]).collect())
 }
 
 #[test]
@@ -212,13 +212,13 @@ fn another_table_gives_its_own_sum() {
     let stage = Stage::new(vec![floor(velvet([0.9, 0.5, 0.2], 0.63)), window()], eye());
     let picture = linear(&stage.scene(), &table, &settings, SIZE);
     differences(&picture, &Truth::new(&stage, &table, &settings, SIZE)).unwrap();
-    let shipped = LtcTable::embedded();
+    let shipped = SheenTable::embedded();
     assert!(differences(&picture, &Truth::new(&stage, &shipped, &settings, SIZE)).is_err());
 }
 
 #[test]
 fn wrong_pictures_are_rejected() {
-    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let (table, settings) = (SheenTable::embedded(), sheen_alone());
     let stage = Stage::new(vec![floor(cloth()), window()], eye());
     let truth = Truth::new(&stage, &table, &settings, SIZE);
     let right = linear(&stage.scene(), &table, &settings, SIZE);

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
 use velour::scene::{Layering, Material, Overrides, Scene, Settings, Sheen, SheenModel};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{CORNER_SHIFT, SIZE, linear, moves_corners, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
@@ -21,7 +21,7 @@ const OF_GREATEST: f64 = 1e-5;
 /// So many pixels may be off: those that noise moves by more than three standard errors, 5 in 1000 with 32 batches, and edges.
 const MOST_OFF: f64 = 0.01;
 
-pub fn traced(scene: &Scene, table: &LtcTable, settings: &Settings, options: Options, samples: u64) -> Picture {
+pub fn traced(scene: &Scene, table: &SheenTable, settings: &Settings, options: Options, samples: u64) -> Picture {
     let reference = Reference::new(scene, settings, table, options).unwrap();
     reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
 }
@@ -77,7 +77,7 @@ pub fn differences(picture: &LinearImage, reference: &Picture) -> Result<(), Str
 }
 
 /// Holds a picture of real time to the reference's of the same scene.
-pub fn hold(picture: &LinearImage, scene: &Scene, table: &LtcTable, settings: &Settings) {
+pub fn hold(picture: &LinearImage, scene: &Scene, table: &SheenTable, settings: &Settings) {
     let reference = traced(scene, table, settings, REAL_TIME, 64);
     differences(picture, &reference).unwrap_or_else(|said| panic!("against the reference: {said}"));
 }
@@ -98,7 +98,7 @@ fn with_model(model: SheenModel) -> Settings {
 
 #[test]
 fn wrong_pictures_are_rejected() {
-    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let (table, settings) = (SheenTable::embedded(), sheen_alone());
     let scene = stage(0.4).scene();
     let reference = traced(&scene, &table, &settings, REAL_TIME, 64);
     let right = linear(&scene, &table, &settings, SIZE);
@@ -122,7 +122,7 @@ fn wrong_pictures_are_rejected() {
 
 #[test]
 fn a_seed_gives_the_same_picture_on_any_number_of_threads() {
-    let (table, settings) = (LtcTable::embedded(), with_model(SheenModel::Walk));
+    let (table, settings) = (SheenTable::embedded(), with_model(SheenModel::Walk));
     let scene = stage(0.5).scene();
     let on = |threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -138,7 +138,7 @@ fn a_seed_gives_the_same_picture_on_any_number_of_threads() {
 
 #[test]
 fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
-    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let (table, settings) = (SheenTable::embedded(), sheen_alone());
     let scene = stage(0.5).scene();
     let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
     let render = |samples: u64, stop_after: u64| {
@@ -170,7 +170,7 @@ fn whole_batches(reference: &Reference, scene: &Scene, samples: u64) -> LinearIm
 /// The estimated errors are those that other seeds show.
 #[test]
 fn errors_are_what_they_are_estimated_to_be() {
-    let (table, settings) = (LtcTable::embedded(), with_model(SheenModel::Slab));
+    let (table, settings) = (SheenTable::embedded(), with_model(SheenModel::Slab));
     let scene = stage(0.3).scene();
     let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
     let render = |samples: u64, seed: u64| {
@@ -201,7 +201,7 @@ fn errors_are_what_they_are_estimated_to_be() {
 /// Light from a window past a screen with an edge: shadows are where straight lines say.
 #[test]
 fn shadows_are_where_straight_lines_say() {
-    let (table, settings) = (LtcTable::embedded(), sheen_alone());
+    let (table, settings) = (SheenTable::embedded(), sheen_alone());
     let options = Options { shadows: true, ..REAL_TIME };
     let mut stage = stage(0.5);
     // Wholly below the window and wholly off its way.
@@ -218,7 +218,7 @@ fn shadows_are_where_straight_lines_say() {
 /// The walk through the slab, the slab's table and its fit are of one lobe: the first two agree within their noise, and the fit does not.
 #[test]
 fn the_walk_is_the_slab_and_the_fit_is_near() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for alpha in [0.3, 0.8] {
         let scene = stage(alpha).scene();
         let of = |model, samples| traced(&scene, &table, &with_model(model), REAL_TIME, samples);
@@ -251,7 +251,7 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
 /// In a white furnace light that nothing absorbs all comes back, through the layer and off the base, whatever alpha.
 #[test]
 fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     for (alpha, weight) in [(0.1, 1.0), (0.5, 1.0), (1.0, 0.6)] {
         let mut stage = stage(alpha);
         stage.things.truncate(1);
@@ -275,7 +275,7 @@ fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
 /// In a closed box whose walls glow and reflect half of what arrives, each bounce adds half of the one before.
 #[test]
 fn bounces_add_up_to_what_a_closed_box_has() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let wall = Material { base_color: Vec3::splat(0.5), ..glow([1.0; 3]) };
     let places = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
     let walls = places.map(|at| Thing::rectangle([1.0, 1.0], wall.clone()).placed(facing(at.to_array(), ORIGIN)));
@@ -290,7 +290,7 @@ fn bounces_add_up_to_what_a_closed_box_has() {
 /// A uniform environment seen from inside a closed box is not seen; from an open floor it is all there.
 #[test]
 fn the_environment_is_shadowed() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let settings = Settings { ambient: Vec3::ONE, ..Settings::default() };
     let grey = Material { base_color: Vec3::splat(0.5), ..plain() };
     let floor = Thing::rectangle([1.5, 1.5], grey.clone()).placed(facing(ORIGIN, UP));
@@ -311,7 +311,7 @@ fn the_environment_is_shadowed() {
 /// Microfacets themselves, of a colour for each channel: near their fit, and not it; and of no more light than comes in.
 #[test]
 fn microfacets_are_near_their_fit() {
-    let (table, settings) = (LtcTable::embedded(), Settings { lights_visible: false, ..Settings::default() });
+    let (table, settings) = (SheenTable::embedded(), Settings { lights_visible: false, ..Settings::default() });
     let mut stage = stage(0.5);
     stage.things[0].material = Material { metallic: 1.0, roughness: 0.5, ..velvet([0.0; 3], 0.5) };
     let of =
@@ -333,7 +333,7 @@ fn microfacets_are_near_their_fit() {
 /// A ball of few facets beside its light: what is round stands in no light of its own, and the light does not either.
 #[test]
 fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
-    let (table, settings) = (LtcTable::embedded(), Settings::default());
+    let (table, settings) = (SheenTable::embedded(), Settings::default());
     for columns in [12, 48] {
         for distance in [1.1, 2.0, 5.0] {
             let ball = super::modelling::ball(velvet([0.9, 0.5, 0.2], 0.5), columns);
@@ -351,7 +351,7 @@ fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
 /// Where the shading normal turns away from the view, as at coarse silhouettes, the walk scatters as the slab does.
 #[test]
 fn the_walk_goes_on_where_the_view_is_along_the_surface() {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let mut stage = stage(0.5);
     // Normals that lean away from the view by more than a right angle.
     stage.things[0].normals = vec![Vec3::new(0.0, 0.9, 0.4).normalize(); 4];

@@ -7,7 +7,7 @@ use velour::renderer::Offscreen;
 use velour::scene::{
     Layering, Lobes, Material, Overrides, PunctualKind, PunctualLight, Scene, Settings, Sheen, SheenModel,
 };
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear, sheen_alone};
 use super::reference::traced;
@@ -59,7 +59,7 @@ fn with(model: SheenModel, settings: &Settings) -> Settings {
 
 /// Both renderers' pictures.
 fn pictures(scene: &Scene, settings: &Settings) -> (LinearImage, Picture) {
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let options = Options { shadows: false, filter: Filter::Centre, ..Options::default() };
     (linear(scene, &table, settings, SIZE), traced(scene, &table, settings, options, SAMPLES))
 }
@@ -196,7 +196,7 @@ fn lights_that_are_near_are_roughly_right() {
 
 #[test]
 fn a_change_of_model_is_taken_over() {
-    let (table, scene) = (LtcTable::embedded(), stage(velvet([0.9, 0.5, 0.2], 0.4), vec![window()]).scene());
+    let (table, scene) = (SheenTable::embedded(), stage(velvet([0.9, 0.5, 0.2], 0.4), vec![window()]).scene());
     let mut renderer = Offscreen::for_linear(&GPU, 1, &table, &scene, &sheen_alone()).unwrap();
     for model in [SheenModel::Patry, SheenModel::Ltc, SheenModel::Burley] {
         let settings = with(model, &sheen_alone());

@@ -4,7 +4,7 @@ use glam::{Mat4, Vec2, Vec3};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
 use velour::scene::{AlphaMode, Scene, Settings};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
@@ -19,7 +19,7 @@ fn stage() -> Stage {
 }
 
 fn shown(scene: &Scene, samples: u32, settings: &Settings, tone: ToneCurve, size: [u32; 2]) -> DisplayImage {
-    let mut renderer = Offscreen::for_display(&GPU, samples, &LtcTable::embedded(), scene, settings).unwrap();
+    let mut renderer = Offscreen::for_display(&GPU, samples, &SheenTable::embedded(), scene, settings).unwrap();
     GPU.block_on(renderer.display(&GPU, &scene.cameras[0], size, settings, tone)).unwrap()
 }
 
@@ -33,7 +33,7 @@ fn greatest(left: &DisplayImage, right: &DisplayImage) -> u8 {
 #[test]
 fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
     let scene = stage().scene();
-    let radiance = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+    let radiance = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
     for tone in [ToneCurve::None, ToneCurve::Neutral, ToneCurve::Agx] {
         for exposure in [-2.0, 0.0, 1.3, 6.0] {
             let settings = Settings { exposure, ..Settings::default() };
@@ -53,7 +53,7 @@ fn exposure_reaches_radiance_of_any_unit() {
         stage.things[1].material = glow([radiance; 3]);
         let scene = stage.scene();
         let settings = Settings { exposure, ..Settings::default() };
-        let expected = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+        let expected = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
         let expected = expected.display(exposure, ToneCurve::None);
         let picture = shown(&scene, 1, &settings, ToneCurve::None, SIZE);
         assert!(greatest(&picture, &expected) <= 1, "{radiance} {exposure}");
@@ -69,7 +69,7 @@ fn a_light_does_not_shine_on_itself() {
         let mut lamp = Thing::rectangle([0.3, 0.3], glow([0.5; 3])).placed(facing(center, [x + 0.3, y + 0.5, z + 1.0]));
         (lamp.material.double_sided, lamp.material.base_color) = (true, glam::Vec3::ONE);
         let scene = Stage::new(vec![lamp], looking([x + 0.6, y + 0.4, z + 1.0], center)).scene();
-        let picture = linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE);
+        let picture = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
         let lit = picture.pixels.iter().filter(|[red, ..]| *red > 0.0).count();
         assert!(lit > 1000, "{center:?}: {lit} pixels");
         assert!(picture.pixels.iter().all(|[red, ..]| *red == 0.0 || *red == 0.5), "{center:?}");
@@ -78,7 +78,7 @@ fn a_light_does_not_shine_on_itself() {
 
 #[test]
 fn four_samples_smooth_the_edges_alone() {
-    let (stage, settings, table) = (stage(), Settings::default(), LtcTable::embedded());
+    let (stage, settings, table) = (stage(), Settings::default(), SheenTable::embedded());
     let scene = stage.scene();
     let single = linear(&scene, &table, &settings, SIZE);
     let mut renderer = Offscreen::for_linear(&GPU, 4, &table, &scene, &settings).unwrap();
@@ -104,7 +104,7 @@ fn four_samples_smooth_the_edges_alone() {
 
 #[test]
 fn pictures_past_a_tile_show_no_seam() {
-    let (stage, settings, table) = (stage(), sheen_alone(), LtcTable::embedded());
+    let (stage, settings, table) = (stage(), sheen_alone(), SheenTable::embedded());
     for size in [[2100, 30], [20, 2060]] {
         let picture = linear(&stage.scene(), &table, &settings, size);
         differences(&picture, &Truth::new(&stage, &table, &settings, size)).unwrap();
@@ -115,7 +115,7 @@ fn pictures_past_a_tile_show_no_seam() {
 
 #[test]
 fn the_same_picture_comes_out_every_time() {
-    let (scene, table) = (stage().scene(), LtcTable::embedded());
+    let (scene, table) = (stage().scene(), SheenTable::embedded());
     let settings = Settings::default();
     let bits = |_| linear(&scene, &table, &settings, SIZE).pixels.concat().into_iter().map(f32::to_bits).collect();
     let [first, second]: [Vec<u32>; 2] = [0, 1].map(bits);
@@ -148,7 +148,7 @@ fn many_triangles_are_drawn_in_parts_without_a_trace() {
             other.world_from_mesh.w_axis.y += height;
             scene.instances.push(other);
         }
-        linear(&scene, &LtcTable::embedded(), &Settings::default(), SIZE)
+        linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE)
     };
     for blended in [false, true] {
         let (whole, parts) = (floor(1, blended), floor(220, blended));

@@ -1,6 +1,6 @@
 //! `velour fit`: what it writes, what it checks, and what it refuses.
 
-use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
+use velour::table::{GgxTable, SLAB_SIDE, SheenTable, SlabTable};
 
 use super::run::Bench;
 
@@ -10,7 +10,7 @@ fn a_fitted_table_is_what_its_check_expects() {
     let said = bench.run("fit --only sheen --resolution 4 -o new/tables").stdout;
     assert!(said.contains("Relative L2 error") && said.contains("new/tables/sheen_ltc.csv"), "{said}");
     let path = bench.path("new/tables/sheen_ltc.csv");
-    let table = LtcTable::load(&path).unwrap();
+    let table = SheenTable::load(&path).unwrap();
     assert_eq!(table.size(), [4, 4]);
     assert_eq!(table.to_dds(), std::fs::read(path.with_extension("dds")).unwrap());
     let check = "fit --check --only sheen --resolution 4 -o new/tables";
@@ -20,9 +20,9 @@ fn a_fitted_table_is_what_its_check_expects() {
 
     let mut cells = table.cells().to_vec();
     cells[9][2] += 0.01;
-    std::fs::write(&path, LtcTable::new([4, 4], cells).to_csv(&[])).unwrap();
+    std::fs::write(&path, SheenTable::new([4, 4], cells).to_csv(&[])).unwrap();
     let good = std::fs::read(bench.path("new/tables/sheen_ltc.dds")).unwrap();
-    std::fs::write(bench.path("new/tables/sheen_ltc.dds"), LtcTable::load(&path).unwrap().to_dds()).unwrap();
+    std::fs::write(bench.path("new/tables/sheen_ltc.dds"), SheenTable::load(&path).unwrap().to_dds()).unwrap();
     bench.refused(&mut bench.command(check), 1, "half-float steps off");
     std::fs::write(bench.path("new/tables/sheen_ltc.dds"), good).unwrap();
     bench.refused(&mut bench.command(&check.replace('4', "5")), 1, "another size");
@@ -66,7 +66,7 @@ fn the_specular_bases_table_is_checked() {
 fn what_cannot_be_read_or_written_is_said_before_the_work() {
     let bench = Bench::new();
     bench.refused(&mut bench.command("fit --check -o nowhere"), 2, "nowhere/sheen_ltc.csv: cannot be read");
-    let shipped = LtcTable::embedded();
+    let shipped = SheenTable::embedded();
     bench.put("sheen_ltc.csv", shipped.to_csv(&[]));
     bench.put("sheen_ltc.dds", shipped.to_dds());
     // The second table's file is looked at before the first is made.

@@ -7,7 +7,7 @@ use velour::scene::{
     AlphaMode, Image, Lobes, Material, Sampler, Scene, Settings, Sheen, Texture, TextureSlot, TextureUse,
     linear_from_srgb,
 };
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear};
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
@@ -40,7 +40,7 @@ fn textured(scene: &mut Scene, slot: TextureSlot, size: [u32; 2], texels: Vec<[u
 
 fn picture(scene: &Scene) -> LinearImage {
     let settings = Settings { lights_visible: false, ..Settings::default() };
-    linear(scene, &LtcTable::embedded(), &settings, SIZE)
+    linear(scene, &SheenTable::embedded(), &settings, SIZE)
 }
 
 /// The greatest difference over all pixels, as a share of the brightest.
@@ -102,12 +102,12 @@ fn one_texel_is_a_factor_in_the_right_channel_and_encoding() {
 #[test]
 fn occlusion_weakens_the_environment_alone() {
     let settings = Settings { lights_visible: false, ambient: Vec3::ONE, ..Settings::default() };
-    let lit = |scene: &Scene| linear(scene, &LtcTable::embedded(), &settings, SIZE);
+    let lit = |scene: &Scene| linear(scene, &SheenTable::embedded(), &settings, SIZE);
     let mut scene = floor(rich());
     scene.materials[0].occlusion_strength = 0.5;
     textured(&mut scene, TextureSlot::Occlusion, [1, 1], vec![[51, 255, 255, 255]]);
     let weakened = Settings { ambient: Vec3::splat(1.0 - 0.5 * 0.8), ..settings.clone() };
-    let expected = linear(&floor(rich()), &LtcTable::embedded(), &weakened, SIZE);
+    let expected = linear(&floor(rich()), &SheenTable::embedded(), &weakened, SIZE);
     assert!(difference(&lit(&scene), &expected) < 1e-3);
 }
 
@@ -130,7 +130,7 @@ fn shown(change: impl Fn(&mut Scene)) -> [[u8; 3]; 4] {
     scene.textures[0].sampler.magnify = velour::scene::Filter::Nearest;
     change(&mut scene);
     let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-    let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
     [(false, false), (true, false), (false, true), (true, true)].map(|(right, near)| quarter(&picture, right, near))
 }
 
@@ -169,7 +169,7 @@ fn far_textures_are_their_mean_in_linear_light() {
     let repeated = Affine2::from_scale(Vec2::splat(40.0));
     scene.materials[0].textures[TextureSlot::Emission as usize].as_mut().unwrap().uv_from_tex_coord = repeated;
     let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-    let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
     for near in [false, true] {
         let [r, ..] = quarter(&picture, false, near);
         assert!((120..=135).contains(&r), "{r}");
@@ -198,7 +198,7 @@ fn triangles_leave_no_seams_in_textures() {
         };
         mesh.indices = (0..parts).flat_map(|y| (0..parts).flat_map(move |x| quad(x, y))).collect();
         let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-        linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE)
+        linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE)
     };
     let (whole, parts) = (shown(1), shown(23));
     let far = |(left, right): &(&[f32; 3], &[f32; 3])| (left[0] - right[0]).abs() > 0.1;
@@ -241,7 +241,7 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
 fn flat_normal_maps_leave_sharp_reflections_sharp() {
     let settings = Settings { lights_visible: false, ..Settings::default() };
     let filtered = |scene: &Scene| {
-        let mut renderer = Offscreen::for_linear(&GPU, 4, &LtcTable::embedded(), scene, &settings).unwrap();
+        let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), scene, &settings).unwrap();
         GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap()
     };
     let polished = Material { roughness: 0.15, metallic: 1.0, sheen: None, ..rich() };
@@ -276,7 +276,7 @@ fn textures_without_mipmaps_are_made_smaller_as_they_say() {
         textured(&mut scene, TextureSlot::Emission, [256, 256], texels.clone());
         scene.textures[0].sampler = Sampler { magnify, minify, mipmaps: None, ..Sampler::DEFAULT };
         let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-        let picture = linear(&scene, &LtcTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+        let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
         picture.pixels.iter().filter(|pixel| (0.02..0.98).contains(&pixel[0])).count()
     };
     assert_eq!(greys(Linear, Nearest), 0);

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use velour::reference::polygon::form_factor;
 use velour::scene::{Layering, Lobes, Projection, PunctualKind, PunctualLight, Settings};
-use velour::table::{GgxTable, LtcTable};
+use velour::table::{GgxTable, SheenTable};
 
 use super::stage::{Stage, Thing};
 
@@ -32,14 +32,14 @@ struct Ray {
 /// A stage as it is lit and seen.
 pub struct Truth<'a> {
     stage: &'a Stage,
-    table: &'a LtcTable,
+    table: &'a SheenTable,
     settings: &'a Settings,
     size: [u32; 2],
     lights: Vec<Lit>,
 }
 
 impl<'a> Truth<'a> {
-    pub fn new(stage: &'a Stage, table: &'a LtcTable, settings: &'a Settings, size: [u32; 2]) -> Self {
+    pub fn new(stage: &'a Stage, table: &'a SheenTable, settings: &'a Settings, size: [u32; 2]) -> Self {
         let outline = |thing: &Thing| {
             let world_from_mesh = thing.world_from_mesh.as_dmat4();
             let place = |corner: &Vec3| world_from_mesh.transform_point3(corner.as_dvec3());
@@ -128,7 +128,7 @@ impl<'a> Truth<'a> {
 
 /// A surface as it is seen from one side.
 struct Look<'a> {
-    table: &'a LtcTable,
+    table: &'a SheenTable,
     sheen: DVec3,
     sheen_m_inv: DMat3,
     diffuse: DVec3,

@@ -3,7 +3,7 @@
 use crate::{device, files};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -15,7 +15,7 @@ struct Shaded {
     pad: f32,
 }
 
-fn shaded(table: &LtcTable, points: &[[f32; 2]]) -> Vec<Shaded> {
+fn shaded(table: &SheenTable, points: &[[f32; 2]]) -> Vec<Shaded> {
     let source = [
         files::source("ltc.wgsl"),
         files::source("sheen.wgsl"),
@@ -28,9 +28,9 @@ fn shaded(table: &LtcTable, points: &[[f32; 2]]) -> Vec<Shaded> {
 }
 
 /// A table of cells that `f32` holds, so that nothing is rounded on its way into the texture.
-fn random_table(random: &mut Pcg64, size: [usize; 2]) -> LtcTable {
+fn random_table(random: &mut Pcg64, size: [usize; 2]) -> SheenTable {
     let mut number = |low: f32, high: f32| f64::from(random.random_range(low..high));
-    LtcTable::new(
+    SheenTable::new(
         size,
         (0..size[0] * size[1]).map(|_| [number(0.0, 1.5), number(-1.5, 0.5), number(0.0, 1.0)]).collect(),
     )
@@ -48,7 +48,7 @@ fn points(random: &mut Pcg64, size: [usize; 2]) -> Vec<[f32; 2]> {
 }
 
 /// The greatest difference from `lookup` over a, b and r.
-fn greatest_error(table: &LtcTable, points: &[[f32; 2]], lookup: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
+fn greatest_error(table: &SheenTable, points: &[[f32; 2]], lookup: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
     let mut greatest = 0.0_f64;
     for (&[alpha, mu], shaded) in points.iter().zip(shaded(table, points)) {
         let [x, y, z] = shaded.m_inv;
@@ -84,7 +84,7 @@ fn the_lookup_is_the_tables_own_for_any_size() {
 #[test]
 fn a_light_that_covers_the_hemisphere_gives_the_shipped_tables_albedo() {
     let mut random = Pcg64::seed_from_u64(2);
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let points = points(&mut random, table.size());
     for (&[alpha, mu], shaded) in points.iter().zip(shaded(&table, &points)) {
         let [a, _, r] = table.lookup(f64::from(alpha), f64::from(mu));
@@ -96,7 +96,7 @@ fn a_light_that_covers_the_hemisphere_gives_the_shipped_tables_albedo() {
 
 #[test]
 fn where_a_is_zero_the_matrix_lights_nothing() {
-    let table = LtcTable::new([2, 2], vec![[0.0, -0.4, 0.7], [0.0, 0.2, 0.6], [0.5, 0.0, 0.5], [0.5, 0.0, 0.5]]);
+    let table = SheenTable::new([2, 2], vec![[0.0, -0.4, 0.7], [0.0, 0.2, 0.6], [0.5, 0.0, 0.5], [0.5, 0.0, 0.5]]);
     let found = shaded(&table, &[[0.0, 0.0], [0.0, 0.3], [0.0, 1.0], [1.0, 0.5]]);
     assert!(found[..3].iter().all(|shaded| shaded.lit == 0.0 && shaded.m_inv[0][0] == 0.0 && shaded.albedo > 0.5));
     assert!(found[3].lit > 0.4999);

@@ -20,7 +20,7 @@ pub use page::page;
 use crate::picture::{DisplayImage, ToneCurve};
 use crate::reference::{Effort, Options, Reference, ReferenceError};
 use crate::scene::{Scene, SceneError, Settings};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// A picture to be made.
 pub struct Plate {
@@ -82,7 +82,7 @@ impl Shot {
     }
 
     fn take(&self, scene: &Scene, settings: &Settings, progress: &Progress) -> Result<DisplayImage, PlateError> {
-        let reference = Reference::new(scene, settings, &LtcTable::embedded(), self.options)?;
+        let reference = Reference::new(scene, settings, &SheenTable::embedded(), self.options)?;
         let effort = Effort { samples: self.samples, seed: 0 };
         let picture = reference.render(&scene.cameras[0], self.size, effort, progress)?;
         if picture.samples < self.samples {

@@ -8,10 +8,10 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::lights::{Lit, Seen, worth};
-use crate::table::SpecularLtc;
+use crate::table::Ltc;
 
 /// Lobes that lights are sampled by, each of a colour.
-pub(super) type Sampled = SmallVec<[(DVec3, SpecularLtc); 4]>;
+pub(super) type Sampled = SmallVec<[(DVec3, Ltc); 4]>;
 
 /// The lights that a point sees, by the lobes that they are sampled with.
 pub(super) struct Chooser<'a> {
@@ -81,7 +81,7 @@ impl<'a> Chooser<'a> {
         if self.samples == 0 {
             return 0.0;
         }
-        let density = |(color, ltc): &(DVec3, SpecularLtc)| worth(*color, lit.radiance) * ltc.density(lit.wo);
+        let density = |(color, ltc): &(DVec3, Ltc)| worth(*color, lit.radiance) * ltc.density(lit.wo);
         let found: f64 = self.lobes.iter().map(density).sum();
         if self.samples < self.parts.len() {
             return self.samples as f64 * found / self.worth;
@@ -137,9 +137,9 @@ mod tests {
         let mut rng = Pcg64::seed_from_u64(3);
         let up = [DVec3::Z, DVec3::new(0.3, -0.2, 0.9).normalize()];
         for (up, most) in up.into_iter().flat_map(|up| [(up, 1), (up, 3), (up, 100)]) {
-            let lobes: [(DVec3, SpecularLtc); 2] = [
-                (DVec3::new(0.9, 0.4, 0.2), SpecularLtc { a: 0.4, b: -0.5, c: 0.4 }),
-                (DVec3::new(0.1, 0.5, 0.6), SpecularLtc { a: 1.0, b: 0.0, c: 1.0 }),
+            let lobes: [(DVec3, Ltc); 2] = [
+                (DVec3::new(0.9, 0.4, 0.2), Ltc { a: 0.4, b: -0.5, c: 0.4 }),
+                (DVec3::new(0.1, 0.5, 0.6), Ltc { a: 1.0, b: 0.0, c: 1.0 }),
             ];
             let point = DVec3::new(0.1, -0.2, 0.05);
             let chooser = Chooser::new(lobes.into_iter().collect(), lights.seen(point, DMat3::IDENTITY, up), most);

@@ -7,7 +7,7 @@ use super::convex::{Convex, Outline, clip, cosine_share, edges};
 use super::luminance;
 use crate::reference::bvh::Ray;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
-use crate::table::SpecularLtc;
+use crate::table::Ltc;
 
 /// A point no further from a light's plane than this share of the largest coordinate is in it, as in real time: emitters are stored
 /// in `f32`, and no light shines on itself.
@@ -96,17 +96,17 @@ impl Seen<'_> {
     }
 
     /// The share of a transformed cosine that falls on it.
-    pub fn share(&self, ltc: &SpecularLtc) -> f64 {
+    pub fn share(&self, ltc: &Ltc) -> f64 {
         cosine_share(&self.transformed(ltc)).abs()
     }
 
-    fn transformed(&self, ltc: &SpecularLtc) -> Outline {
+    fn transformed(&self, ltc: &Ltc) -> Outline {
         let place = |v: &DVec3| DVec3::new(ltc.a * v.x + ltc.b * v.z, ltc.c * v.y, v.z.max(0.0));
         self.outline.iter().map(place).collect()
     }
 
     /// A direction with the transformed cosine's density over its share.
-    pub fn sample(&self, ltc: &SpecularLtc, uniforms: [f64; 2]) -> Option<Lit> {
+    pub fn sample(&self, ltc: &Ltc, uniforms: [f64; 2]) -> Option<Lit> {
         let cosine = Convex::new(&self.transformed(ltc)).sample(uniforms)?;
         let wo = ltc.direction(cosine);
         Some(self.lit(wo)).filter(|_| wo.z > 0.0)

@@ -8,17 +8,17 @@ use super::surface::{SheenAt, Surface};
 use crate::math::sine;
 use crate::models::{Bsdf, Ggx, Schlick};
 use crate::scene::{Layering, Lobes as Wanted, SheenModel};
-use crate::table::{LtcTable, SpecularLtc};
+use crate::table::{Ltc, SheenTable};
 
 /// The cosine as a transformed one.
-pub(super) const COSINE: SpecularLtc = SpecularLtc { a: 1.0, b: 0.0, c: 1.0 };
+pub(super) const COSINE: Ltc = Ltc { a: 1.0, b: 0.0, c: 1.0 };
 
 /// A lobe as it is seen from `wi`.
 pub(super) struct Lobe<'a> {
     /// What its density, or its model, is multiplied by.
     pub color: DVec3,
     /// A transformed cosine that it is, or that is near it: lights are sampled by it.
-    pub ltc: SpecularLtc,
+    pub ltc: Ltc,
     /// Light is scattered about as by that. Lobes of earlier models are not: lights are sampled by the plain cosine too.
     pub is_near: bool,
     /// Under the layer of fibres.
@@ -57,7 +57,7 @@ pub(super) struct Lobes<'a> {
 #[derive(Clone, Copy)]
 enum SheenAlbedo<'a> {
     /// The table's r at this alpha.
-    Table(&'a LtcTable, f64),
+    Table(&'a SheenTable, f64),
     Model(&'a dyn Bsdf),
 }
 
@@ -118,14 +118,14 @@ impl<'a> Lobes<'a> {
         }
     }
 
-    fn add_sheen(&mut self, at: &SheenAt, table: &LtcTable, model: Option<&'a dyn Bsdf>, mu: f64) {
+    fn add_sheen(&mut self, at: &SheenAt, table: &SheenTable, model: Option<&'a dyn Bsdf>, mu: f64) {
         let [a, b, r] = table.lookup(at.alpha, mu);
         let (color, shape) = match model {
             None => (at.color * r, Shape::Ltc),
             Some(model) => (at.color, Shape::Model(model)),
         };
         let is_near = matches!(at.model, SheenModel::Ltc | SheenModel::Slab | SheenModel::Walk);
-        self.add(Lobe { color, ltc: SpecularLtc { a, b, c: a }, is_near, is_base: false, shape });
+        self.add(Lobe { color, ltc: Ltc { a, b, c: a }, is_near, is_base: false, shape });
     }
 
     fn add_base(&mut self, surface: &Surface, models: &'a Models, wanted: Wanted, weight: f64) {
@@ -234,7 +234,7 @@ impl<'a> Lobes<'a> {
 /// The specular base at a point.
 pub(super) struct SpecularAt<'a> {
     /// The transformed cosine.
-    pub ltc: SpecularLtc,
+    pub ltc: Ltc,
     /// Of a mirror, and its Fresnel share.
     pub shares: [f64; 2],
     pub facets: Option<&'a Ggx>,

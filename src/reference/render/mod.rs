@@ -36,7 +36,7 @@ use uniforms::Uniforms;
 use world::World;
 
 use crate::scene::{Camera, Scene, Settings};
-use crate::table::LtcTable;
+use crate::table::SheenTable;
 
 /// Batches of samples that are made where there are enough: from their scatter errors are estimated.
 const BATCHES: u64 = 32;
@@ -119,7 +119,7 @@ impl<'a> Reference<'a> {
     pub fn new(
         scene: &'a Scene,
         settings: &'a Settings,
-        table: &LtcTable,
+        table: &SheenTable,
         options: Options,
     ) -> Result<Self, ReferenceError> {
         let light = Light {

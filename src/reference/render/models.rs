@@ -9,7 +9,7 @@ use crate::models::{
     Bsdf, Burley, ContyKulla, Ggx, LtcSheen, NeubeltPettineo, Patry, Schlick, SheenWalk, SlabSheen, Terminator,
 };
 use crate::scene::{Material, Scene, Settings, SheenModel, TextureSlot};
-use crate::table::{GgxLobe, GgxTable, LtcTable, SlabTable};
+use crate::table::{GgxLobe, GgxTable, SheenTable, SlabTable};
 
 /// Textured roughnesses are rounded to as many steps; the transformed cosines are not.
 const STEPS: usize = 256;
@@ -41,7 +41,7 @@ struct OfMaterial {
 
 /// Everything that lobes are made of.
 pub(super) struct Models {
-    pub sheen_table: LtcTable,
+    pub sheen_table: SheenTable,
     ggx_table: GgxTable,
     slab_table: OnceLock<SlabTable>,
     specular: SpecularModel,
@@ -49,7 +49,7 @@ pub(super) struct Models {
 }
 
 impl Models {
-    pub fn new(scene: &Scene, settings: &Settings, sheen_table: &LtcTable, specular: SpecularModel) -> Self {
+    pub fn new(scene: &Scene, settings: &Settings, sheen_table: &SheenTable, specular: SpecularModel) -> Self {
         let of_material = |(index, material): (usize, &Material)| {
             let look = settings.sheen_of(index, material);
             let rough = material.texture(TextureSlot::SheenRoughness).is_some()

@@ -17,7 +17,7 @@ use super::uniforms::Uniforms;
 use super::world::World;
 use crate::reference::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
-use crate::table::SpecularLtc;
+use crate::table::Ltc;
 
 /// Parts of lights that are looked at one by one where the camera looks; of more, and behind, some are chosen.
 const LIGHTS_MOST: usize = 16;
@@ -132,7 +132,7 @@ impl Light<'_> {
         sampled.extend(others.map(|lobe| (lobe.albedo(surface.mu()), COSINE)));
         if let Some(at) = surface.sheen.filter(is_walked) {
             let [a, b, r] = self.models.sheen_table.lookup(at.alpha, surface.mu());
-            sampled.push((at.color * r, SpecularLtc { a, b, c: a }));
+            sampled.push((at.color * r, Ltc { a, b, c: a }));
         }
         sampled.retain(|(color, ltc)| color.max_element() > 0.0 && ltc.a > 0.0);
         let seen = self.lights.seen(surface.p_world, surface.world_from_local.transpose(), surface.up);

@@ -1,27 +1,16 @@
 //! The command line: what the user asks for, in which order it is done, and what is said about it.
 
-#[path = "main/args.rs"]
 mod args;
-#[path = "main/compare.rs"]
 mod compare;
 #[cfg(feature = "gpu")]
-#[path = "main/draw.rs"]
 mod draw;
-#[path = "main/figures.rs"]
 mod figures;
-#[path = "main/fit.rs"]
 mod fit;
-#[path = "main/inputs.rs"]
 mod inputs;
-#[path = "main/interrupt.rs"]
 mod interrupt;
-#[path = "main/output.rs"]
 mod output;
-#[path = "main/overrides.rs"]
 mod overrides;
-#[path = "main/reference.rs"]
 mod reference;
-#[path = "main/render_args.rs"]
 mod render_args;
 
 use std::fmt::Display;

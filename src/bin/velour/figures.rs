@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use serde_json::{Map, Value, json};
 use velour::figures::{self, Figure, plates};
 use velour::picture::write_atomically;
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use crate::args::Figures;
 use crate::interrupt::{ENDING, listen};
@@ -60,7 +60,7 @@ pub fn figures(arguments: &Figures) -> Result<(), Failure> {
 /// The figures that are drawings: those of the table, which take seconds, made anew; that of the fibres, which takes a minute, only where it is
 /// not there.
 fn drawn(folder: &Path) -> Result<Vec<Figure>, Failure> {
-    let mut figures = with_progress("figures", |step| figures::all(&LtcTable::embedded(), step));
+    let mut figures = with_progress("figures", |step| figures::all(&SheenTable::embedded(), step));
     for figure in &figures {
         let path = folder.join(figure.name);
         write_atomically(&path, figure.svg.as_bytes()).map_err(Failure::input)?;
@@ -96,6 +96,6 @@ fn fibres(folder: &Path) -> Result<Figure, Failure> {
 fn described(settings: &[(&str, String)]) -> String {
     let mut map: Map<String, Value> = settings.iter().map(|(name, value)| ((*name).to_owned(), json!(value))).collect();
     map.insert("velour".to_owned(), json!(env!("CARGO_PKG_VERSION")));
-    map.insert("sheen_ltc".to_owned(), json!(format!("{:08x}", LtcTable::embedded().checksum())));
+    map.insert("sheen_ltc".to_owned(), json!(format!("{:08x}", SheenTable::embedded().checksum())));
     format!("{:#}\n", Value::Object(map))
 }

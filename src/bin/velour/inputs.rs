@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use velour::picture::{Format, LinearImage, WriteError, check_writable};
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
-use velour::table::LtcTable;
+use velour::table::SheenTable;
 
 use crate::output::is_same_file;
 use crate::render_args::{PictureArgs, Switch};
@@ -32,7 +32,7 @@ impl Timing {
 pub struct Inputs {
     pub format: Format,
     pub scene: Scene,
-    pub table: LtcTable,
+    pub table: SheenTable,
     pub settings: Settings,
     /// Index into the scene's cameras.
     camera: usize,
@@ -112,8 +112,8 @@ fn settings(arguments: &PictureArgs, scene: &Scene) -> Result<Settings, Failure>
     })
 }
 
-fn sheen_table(path: Option<&Path>) -> Result<LtcTable, Failure> {
-    path.map_or_else(|| Ok(LtcTable::embedded()), |path| LtcTable::load(path).map_err(Failure::input))
+fn sheen_table(path: Option<&Path>) -> Result<SheenTable, Failure> {
+    path.map_or_else(|| Ok(SheenTable::embedded()), |path| SheenTable::load(path).map_err(Failure::input))
 }
 
 /// Index of the camera that is wanted, else of the first.

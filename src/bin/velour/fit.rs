@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use velour::fit;
 use velour::picture::write_atomically;
-use velour::table::{GgxTable, LtcTable, SlabTable, TableError};
+use velour::table::{GgxTable, SheenTable, SlabTable, TableError};
 
 use crate::args::{Fit, Table};
 use crate::output::{prepare, with_progress};
@@ -19,7 +19,7 @@ pub fn fit(arguments: &Fit) -> Result<(), Failure> {
     if arguments.resolution.is_some() && arguments.only.is_some_and(|only| only != Table::Sheen) {
         return Err(Failure::input("--resolution is the sheen's: leave it out, or with it --only"));
     }
-    let sheen = Files::of(arguments, Table::Sheen, &["sheen_ltc.csv", "sheen_ltc.dds"], |path| LtcTable::load(path))?;
+    let sheen = Files::of(arguments, Table::Sheen, &["sheen_ltc.csv", "sheen_ltc.dds"], |path| SheenTable::load(path))?;
     let slab = Files::of(arguments, Table::Slab, &["sheen_slab.dds"], |path| SlabTable::load(path))?;
     let ggx = Files::of(arguments, Table::Ggx, &["ggx_ltc.csv", "ggx_ltc.dds"], |path| GgxTable::load(path))?;
     let mut wrong = Vec::new();

@@ -19,7 +19,7 @@ use {
     velour::picture::LinearImage,
     velour::reference::{Filter, SpecularModel},
     velour::scene::{Scene, Settings},
-    velour::table::LtcTable,
+    velour::table::SheenTable,
 };
 
 /// How much is done where nobody said: of the fit light is found exactly, and only edges are to be smoothed; earlier models and the reciprocal rule
@@ -174,7 +174,7 @@ const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the 
 #[cfg(feature = "viewer")]
 pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
-    let renderer = Renderer::new(scene, settings, &LtcTable::embedded(), options).map_err(failure)?;
+    let renderer = Renderer::new(scene, settings, &SheenTable::embedded(), options).map_err(failure)?;
     complain(NO_DEVICE);
     let picture = with_progress("reference", |step| {
         renderer.render(&scene.cameras[0], size, PLAIN, |done, all| {

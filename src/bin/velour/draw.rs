@@ -8,7 +8,7 @@ use velour::picture::{Format, write_atomically};
 use velour::renderer::device::{self, DeviceError, Gpu};
 use velour::renderer::{Offscreen, RenderError};
 use velour::scene::Scene;
-use velour::table::{GgxTable, LtcTable, SLAB_SIDE, SlabTable};
+use velour::table::{GgxTable, SLAB_SIDE, SheenTable, SlabTable};
 
 use crate::inputs::{Inputs, Timing};
 use crate::render_args::Render;
@@ -22,7 +22,7 @@ use {
 
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
 #[cfg(feature = "viewer")]
-const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../assets/drape.glb"));
+const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../../assets/drape.glb"));
 
 pub fn render(arguments: &Render) -> Result<(), Failure> {
     let mut timing = Timing::default();
@@ -108,7 +108,7 @@ pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
     let event_loop = velour::viewer::event_loop().map_err(no_display)?;
     scene.notices.iter().for_each(complain);
-    velour::viewer::run(event_loop, &name, scene, LtcTable::embedded()).map_err(Failure::device)
+    velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
 }
 
 /// The viewer on the default scene; without a display, the picture that it would show.
@@ -117,7 +117,7 @@ pub fn view_or_render_default() -> Result<(), Failure> {
     let scene = default_scene()?;
     match velour::viewer::event_loop() {
         Ok(event_loop) => {
-            velour::viewer::run(event_loop, DEFAULT_SCENE.0, scene, LtcTable::embedded()).map_err(Failure::device)
+            velour::viewer::run(event_loop, DEFAULT_SCENE.0, scene, SheenTable::embedded()).map_err(Failure::device)
         }
         Err(no_display) => {
             let output = Path::new("velour.png");
@@ -140,7 +140,7 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
         }
         gpu => {
             let gpu = gpu.map_err(Failure::device)?;
-            let renderer = Offscreen::for_display(&gpu, 4, &LtcTable::embedded(), scene, &settings);
+            let renderer = Offscreen::for_display(&gpu, 4, &SheenTable::embedded(), scene, &settings);
             let mut renderer = renderer.map_err(render_failure)?;
             let picture = gpu.block_on(renderer.display(&gpu, camera, SIZE, &settings, Default::default()));
             picture.map_err(render_failure)?
@@ -169,7 +169,7 @@ pub fn info() -> Result<(), Failure> {
         say(format!("  largest buffer: {} MiB", limits.max_buffer_size >> 20));
         say(format!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20));
     }
-    let table = LtcTable::embedded();
+    let table = SheenTable::embedded();
     let [alphas, mus] = table.size();
     say(format!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum()));
     say(format!(
