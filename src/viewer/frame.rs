@@ -1,13 +1,11 @@
 //! One frame of the window: the scene's passes, and egui over them.
 
-use std::path::PathBuf;
-
 use egui_wgpu::ScreenDescriptor;
 use wgpu::{CurrentSurfaceTexture, TextureView};
 
-use super::ViewerError;
 use super::state::{Change, State};
-use crate::picture::write_atomically;
+use super::{ViewerError, native};
+use crate::picture::DisplayImage;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::SheenTable;
 
@@ -111,7 +109,7 @@ impl Frame {
         self.gpu.queue.present(surface_texture);
         // Never more than one frame ahead, so that a slow driver still answers to the latest drag; and the frame time is
         // the frame's.
-        let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+        native::finish(&self.gpu);
         freed.iter().for_each(|id| self.egui.free_texture(id));
         Ok(Presented::Yes)
     }
@@ -177,25 +175,16 @@ impl Frame {
 
     /// Saves the picture as it is shown, without the panel, into the current folder; says where, or why not.
     pub fn screenshot(&self, state: &State, table: &SheenTable) -> String {
-        let Some(path) = free_name() else { return "velour-001.png to velour-999.png are taken".to_owned() };
+        self.picture(state, table).and_then(|picture| native::save(&picture)).unwrap_or_else(|error| error)
+    }
+
+    fn picture(&self, state: &State, table: &SheenTable) -> Result<DisplayImage, String> {
         let size = [self.place.width, self.place.height];
         let samples = RadianceFormat::display(&self.gpu.adapter, SAMPLES).map_or(1, |format| format.samples);
-        let picture = || -> Result<Vec<u8>, String> {
-            let renderer = Offscreen::for_display(&self.gpu, samples, table, &state.scene, &state.settings);
-            let mut renderer = renderer.map_err(|error| error.to_string())?;
-            let camera = state.orbit.camera();
-            let image = self.gpu.block_on(renderer.display(&self.gpu, &camera, size, &state.settings, state.tone));
-            image.map_err(|error| error.to_string())?.to_png().map_err(|error| error.to_string())
-        };
-        let written = picture().and_then(|bytes| write_atomically(&path, &bytes).map_err(|error| error.to_string()));
-        match written {
-            Ok(()) => format!("saved {}", path.display()),
-            Err(error) => error,
-        }
+        let renderer = Offscreen::for_display(&self.gpu, samples, table, &state.scene, &state.settings);
+        let mut renderer = renderer.map_err(|error| error.to_string())?;
+        let camera = state.orbit.camera();
+        let picture = renderer.display(&self.gpu, &camera, size, &state.settings, state.tone);
+        native::block_on_device(&self.gpu, picture).map_err(|error| error.to_string())
     }
-}
-
-/// The first of velour-001.png to velour-999.png that is not there.
-fn free_name() -> Option<PathBuf> {
-    (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.png"))).find(|path| !path.exists())
 }

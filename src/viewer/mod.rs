@@ -5,6 +5,7 @@
 mod frame;
 mod layout;
 mod material;
+mod native;
 mod orbit;
 mod panel;
 mod state;

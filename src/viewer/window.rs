@@ -1,7 +1,7 @@
 //! The window: its events, its surface, and when something is drawn.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::ViewportId;
 use winit::application::ApplicationHandler;
@@ -10,9 +10,9 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::{Window, WindowId};
 
-use super::ViewerError;
 use super::frame::{Frame, Presented};
 use super::state::{Change, State};
+use super::{ViewerError, native};
 use crate::renderer::device;
 use crate::table::SheenTable;
 
@@ -55,7 +55,7 @@ impl App {
             .with_min_inner_size(LogicalSize::new(480, 320));
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
         let window = Arc::new(window);
-        let (surface, gpu) = pollster::block_on(open_surface(&window))?;
+        let (surface, gpu) = native::block_on(open_surface(&window))?;
         let frame = Frame::new(surface, gpu, window.inner_size().into(), &self.state, &self.table)?;
         let egui = egui_winit::State::new(
             egui::Context::default(),
@@ -86,7 +86,7 @@ impl App {
     }
 
     fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
-        let start = Instant::now();
+        let start = native::now();
         self.pass();
         let Some(open) = &mut self.open else { return Ok(()) };
         let shown = open.window.inner_size();
@@ -109,7 +109,7 @@ impl App {
         if presented == Presented::Again || delay.is_zero() || screenshot {
             open.window.request_redraw();
         } else {
-            let wake = Instant::now().checked_add(delay);
+            let wake = native::after(delay);
             event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 mod imports;
 mod lengths;
+mod machine;
 
 use std::fs;
 use std::path::{Path, PathBuf};
