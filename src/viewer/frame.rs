@@ -11,10 +11,11 @@ use crate::picture::write_atomically;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::SheenTable;
 
-/// Samples a pixel of screenshots, and of the window where there is hardware to draw it.
+/// Samples per pixel of screenshots, and of the window where there is hardware to draw it.
 const SAMPLES: u32 = 4;
 
-/// Samples a pixel of the window on a software driver, where four cost twice as much: a drag is followed first.
+/// Samples per pixel of the window on a software driver, where four cost twice as much and following a drag comes
+/// first.
 const SAMPLES_IN_SOFTWARE: u32 = 1;
 
 /// What became of a frame.
@@ -109,8 +110,8 @@ impl Frame {
         self.draw_egui(&mut encoder, &view, &jobs, output.pixels_per_point);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(surface_texture);
-        // Never more than one frame ahead, so that a slow driver still answers to the latest drag; and the frame time is
-        // the frame's.
+        // Never more than one frame ahead, so that a slow driver still answers to the latest drag, and that the frame
+        // time is this frame's.
         let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
         freed.iter().for_each(|id| self.egui.free_texture(id));
         Ok(Presented::Yes)
@@ -147,7 +148,7 @@ impl Frame {
     ) {
         let size_in_pixels = [self.configuration.width, self.configuration.height];
         let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
-        // No paint callbacks are used, so there are no command buffers of theirs.
+        // No paint callbacks are used, so that there are no command buffers from them to submit.
         self.egui.update_buffers(&self.gpu.device, &self.gpu.queue, encoder, jobs, &screen);
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("egui"),
@@ -195,7 +196,7 @@ impl Frame {
     }
 }
 
-/// The first of velour-001.png to velour-999.png that is not there.
+/// The first of velour-001.png to velour-999.png that does not exist yet.
 fn free_name() -> Option<PathBuf> {
     (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.png"))).find(|path| !path.exists())
 }
