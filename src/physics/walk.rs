@@ -47,6 +47,7 @@ pub struct Walk {
     pub slab: Slab,
     /// Cosine of `wi` to the normal, in (0, 1\].
     pub mu: f64,
+    /// How the first flight of each path is sampled.
     pub first_flight: FirstFlight,
     /// Number of paths, >= 1.
     pub paths: u64,
