@@ -7,7 +7,9 @@ use std::f64::consts::PI;
 /// The sheen's inverse matrix, whose rows are (a, 0, b), (0, a, 0), (0, 0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheenLtc {
+    /// Scale along the surface, >= 0.
     pub a: f64,
+    /// Shear along x, of either sign.
     pub b: f64,
 }
 
@@ -41,8 +43,11 @@ impl SheenLtc {
 /// An inverse matrix whose rows are (a, 0, b), (0, c, 0), (0, 0, 1), for lobes whose length and width differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ltc {
+    /// Scale along x, > 0.
     pub a: f64,
+    /// Shear along x, of either sign.
     pub b: f64,
+    /// Scale along y, > 0.
     pub c: f64,
 }
 

@@ -48,7 +48,7 @@ const NODE_TOLERANCE: f64 = 1e-4;
 /// Why a table was not read. Each message is one line: what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// Something is wrong in this file: the `problem`.
+    /// The file at `path` was not read because of `problem`.
     #[error("{}: {problem}", .path.display())]
     In { path: PathBuf, problem: Box<TableError> },
     /// Opening or reading the file failed.
@@ -66,16 +66,18 @@ pub enum TableError {
     /// A .csv is not UTF-8 from the byte `at` on.
     #[error("byte {at} is not UTF-8 text; a table's .csv holds lines of numbers")]
     NotText { at: usize },
-    /// A line of a .csv, counted from 1, does not hold the numbers that it should.
+    /// The line `line` of a .csv, counted from 1, does not hold the numbers that it should: see `problem`.
     #[error("line {line}: {problem}")]
     Line { line: usize, problem: String },
-    /// The lines of a .csv, taken together, do not fill a grid; `columns` are the names of the columns that it needs.
+    /// The lines of a .csv, taken together, do not fill a grid: see `problem`. `columns` names the columns that it
+    /// needs.
     #[error("{problem}; a table holds n x m lines of {columns}, in order of the first two, node k of n at k/(n-1)")]
     Lines { columns: String, problem: String },
-    /// A .dds does not hold the texture of a [`SheenTable`] or [`GgxTable`], or one of its texels is out of range.
+    /// A .dds does not hold the texture of a [`SheenTable`] or [`GgxTable`], or one of its texels is out of range: see
+    /// `problem`.
     #[error("{problem}; a table is one 2D texture of RGBA16F or RGBA32F with a DX10 header and no mips")]
     Dds { problem: String },
-    /// A .dds does not hold the volume of a [`SlabTable`], or one of its texels is out of range.
+    /// A .dds does not hold the volume of a [`SlabTable`], or one of its texels is out of range: see `problem`.
     #[error("{problem}; a slab's table is one volume of 32 x 32 x 32 texels of RGBA16F with a DX10 header and no mips")]
     Volume { problem: String },
 }
