@@ -36,10 +36,10 @@ pub enum DeviceError {
     /// There is no adapter at all, or none that can present to the window.
     #[error("no graphics adapter was found: install a Vulkan driver (scripts/setup does), or see `velour info`")]
     NoAdapter,
-    /// There are adapters, but none has the wanted part in its name.
+    /// There are adapters, those `found`, but none has `wanted` in its name.
     #[error("no adapter's name contains '{wanted}': this machine has {}", found.join(", "))]
     NoMatch { wanted: String, found: Vec<String> },
-    /// The adapter was found, but its driver gives no device.
+    /// The driver of `adapter` gives no device, because of `source`.
     #[error("adapter '{adapter}' gave no device: {source}")]
     Refused { adapter: String, source: wgpu::RequestDeviceError },
 }

@@ -41,12 +41,12 @@ pub enum RenderError {
     #[error(
         "{what} take {bytes} bytes on the device, which holds at most {limit} in one piece: split the mesh or use another adapter"
     )]
-    /// A buffer of the scene is larger than the device allows.
+    /// The buffer of `what` is larger, at `bytes`, than the `limit` of the device.
     TooLarge { what: String, bytes: u64, limit: u64 },
-    /// The picture has no pixels, or a side longer than the device's textures may be.
+    /// A side of a picture of `size` pixels is 0, or longer than the `limit` of the device's textures.
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
     Size { size: [u32; 2], limit: u32 },
-    /// The adapter cannot draw into the format `what` with this many samples per pixel.
+    /// The adapter cannot draw into targets of `what` with this many `samples` per pixel; `instead` is what to try.
     #[error("this adapter cannot draw {what} with {samples} samples a pixel: use {instead}")]
     Multisampling { what: &'static str, samples: u32, instead: &'static str },
     /// The picture could not be copied from the device.
