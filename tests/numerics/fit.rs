@@ -158,7 +158,7 @@ fn small_fit_obeys_the_conventions() {
         all_steps.store(all, Ordering::Relaxed);
     });
     let all = all_steps.into_inner();
-    assert_eq!((calls.into_inner(), most.into_inner()), (all, all), "every step is told, and none too many");
+    assert_eq!((calls.into_inner(), most.into_inner()), (all, all), "each step is reported once");
     for i in 0..5 {
         for j in 0..5 {
             let [a, b, r] = table.cell(i, j);

@@ -105,7 +105,7 @@ fn the_quadrature_is_fine_enough() {
         let found = ggx.reflected(mu).albedo;
         assert!((found - fine).abs() < 1e-5, "alpha {alpha}, mu {mu}: {found}, {fine}");
         let coarse: f64 = ggx.quadrature(mu, [4, 4]).iter().map(|node| node.weight * node.lobe).sum();
-        assert!(mu == 0.0 || alpha > 0.3 || (coarse - fine).abs() > 1e-8, "the ruler tells coarse ones: {alpha}, {mu}");
+        assert!(mu == 0.0 || alpha > 0.3 || (coarse - fine).abs() > 1e-8, "a coarse quadrature passes: {alpha}, {mu}");
         // Solid angles add up to the hemisphere's where the distribution reaches all of it.
         let whole: f64 = ggx.quadrature(mu, [40, 40]).iter().map(|node| node.weight).sum();
         assert!(alpha < 0.1 || (whole / (2.0 * PI) - 1.0).abs() < 1e-5, "alpha {alpha}, mu {mu}: {whole}");

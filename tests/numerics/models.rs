@@ -154,7 +154,7 @@ fn the_slab_is_reciprocal() {
             least_ltc = least_ltc.min(there_and_back(&ltc(alpha)));
         }
     }
-    assert!(least_ltc < 0.9, "the ruler tells that the transformed cosine is not: {least_ltc}");
+    assert!(least_ltc < 0.9, "the transformed cosine passes for reciprocal: {least_ltc}");
 }
 
 /// Relative L2 distance of the model's lobe from the solved slab's, and relative error of its albedo.
@@ -181,7 +181,7 @@ fn the_slab_is_the_solved_one() {
         let (model, other) = (slab(alpha), slab(alpha * 1.02));
         let found: Vec<[f64; 2]> = mus.map(|mu| distance(&model, &truth, &hemisphere, mu)).collect();
         let told = distance(&other, &truth, &hemisphere, 0.05)[0];
-        assert!(told > 0.01, "alpha {alpha} is taken for 2% more: {told:.1e}");
+        assert!(told > 0.01, "alpha {alpha} passes for 2% more: {told:.1e}");
         found
     });
     let found: Vec<[f64; 2]> = found.collect::<Vec<_>>().concat();

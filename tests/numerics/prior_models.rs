@@ -262,7 +262,7 @@ fn who_is_reciprocal_and_who_is_not() {
     let [burley, neubelt_pettineo, conty_kulla, soft, patry] = off;
     let reciprocal = [burley, neubelt_pettineo, conty_kulla, patry_scaled];
     assert!(reciprocal.iter().all(|off| *off < 1e-11), "{reciprocal:?}");
-    assert!(soft > 0.3 && patry > 0.3, "the ruler tells what is not: {soft}, {patry}");
+    assert!(soft > 0.3 && patry > 0.3, "models that are not reciprocal pass: {soft}, {patry}");
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn the_file_is_the_table() {
     let halves: Vec<f64> = texel.chunks(2).map(|half| f16::from_le_bytes([half[0], half[1]]).to_f64()).collect();
     let [v0, v1, v2] = table.cell(x, y, z);
     assert_eq!(halves, [v0, v1, v2, 1.0]);
-    assert!(v0 != table.cell(y, x, z)[0] && v0 != table.cell(z, y, x)[0], "axes exchanged are told");
+    assert!(v0 != table.cell(y, x, z)[0] && v0 != table.cell(z, y, x)[0], "exchanged axes would pass");
 }
 
 #[test]

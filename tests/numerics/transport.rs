@@ -162,7 +162,7 @@ fn off_the_walk(alpha: f64, mu: f64, solved: f64) -> f64 {
     let slab = Slab::new(alpha);
     let walk = Walk { slab, mu, first_flight: FirstFlight::Scattered, paths: 300_000, seed: 21 };
     let counts = walk.run().reflected_more.total() as f64;
-    assert!(counts > 90.0, "alpha {alpha}, mu {mu}: {counts} paths tell nothing");
+    assert!(counts > 90.0, "alpha {alpha}, mu {mu}: {counts} paths are too few");
     let walked = slab.single_scattering_albedo(mu) + counts * walk.share();
     // The standard error of a binomial distribution.
     let error = walk.share() * (counts * (1.0 - counts / walk.paths as f64)).sqrt();
