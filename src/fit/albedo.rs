@@ -1,6 +1,6 @@
 //! r at the nodes, such that R is what is interpolated between them.
 //!
-//! R is sampled at [`PER_CELL`] x [`PER_CELL`] points a cell, and the nodes' r minimise
+//! R is sampled at [`PER_CELL`] x [`PER_CELL`] points per cell, and the nodes' r minimise
 //!
 //! ```text
 //! sum over samples with R > 1e-3 of |e|^1.5,  e = (interpolated r) / R - 1,      + a weak pull of every node's r / R towards 1.

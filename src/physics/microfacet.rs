@@ -124,12 +124,12 @@ impl Ggx {
 
     /// Nodes over the directions above the horizon for `wi` = (sqrt(1 - mu^2), 0, mu), fine where the lobe is, for any alpha.
     ///
-    /// The nodes run over the half vector's angles theta and phi. `wo` is above the horizon for theta < (atan2(s cos
-    /// phi, mu) + pi / 2) / 2, s = sqrt(1 - mu^2): the domain's edge is smooth in phi, except for a turn of width mu at
-    /// pi / 2. With tan theta = alpha tan chi the distribution is even in chi: D cos theta sin theta dtheta dphi =
-    /// sin(2 chi) dchi dphi / 2 pi. `counts` are the numbers of Gauss nodes in chi, which are densest at the horizon,
-    /// and in phi on either side of pi / 2, which are densest there and in the plane of incidence, against which
-    /// grazing lobes are pressed.
+    /// The nodes run over the half vector's angles theta and phi. `wo` is above the horizon for
+    /// theta < (atan2(s cos phi, mu) + pi / 2) / 2, s = sqrt(1 - mu^2): the domain's edge is smooth in phi, except for
+    /// a turn of width mu at pi / 2. With tan theta = alpha tan chi the distribution is even in chi:
+    /// D cos theta sin theta dtheta dphi = sin(2 chi) dchi dphi / 2 pi. `counts` are the numbers of Gauss nodes in chi,
+    /// which are densest at the horizon, and in phi on either side of pi / 2, which are densest there and in the plane
+    /// of incidence, against which grazing lobes are pressed.
     pub fn quadrature(&self, mu: f64, counts: [usize; 2]) -> Vec<Node> {
         check_cosine(mu);
         let (s, wi) = (sine(mu), DVec3::new(sine(mu), 0.0, mu));

@@ -9,7 +9,7 @@
 //! | `a`, `b` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | a >= 0; b of either sign |
 //! | `r` | albedo of the lobe, such that its lookup is right between nodes: at nodes of low alpha it is not R itself | \[0, 1\] |
 //!
-//! A .csv holds one line a node, alpha-major; a .dds holds one texel a node, x = alpha, y = mu.
+//! A .csv holds one line for each node, alpha-major; a .dds holds one texel for each node, x = alpha, y = mu.
 //!
 //! [`GgxTable`] holds the same and more for the specular base, over `(roughness, mu)`: see [`ggx`].
 //!
@@ -57,7 +57,7 @@ pub enum TableError {
     /// The path leads to a folder, a device or the like.
     #[error("is no ordinary file; give the path of a table's .csv or .dds")]
     NoFile,
-    /// The file's extension is neither of those from which its format is told.
+    /// The file's extension is neither .csv nor .dds.
     #[error("is neither .csv nor .dds; name the table by its format")]
     UnknownExtension,
     /// The file is longer than [`MAX_FILE_BYTES`].

@@ -260,7 +260,7 @@ impl SlabWarp {
     }
 }
 
-/// Alpha at a texel coordinate, at which node k is at k.
+/// Alpha at a texel coordinate; node k is at coordinate k.
 pub fn slab_alpha(texel: f64) -> f64 {
     ((14.0 + texel) / 45.0).powi(4)
 }

@@ -10,8 +10,8 @@
 //! is exactly the slab's ([`Patch`]). But the slab takes a path's flights to be independent of each other, which is
 //! true of thin fibres only: light that goes back roughly the way it came finds that way free, so that thick fibres
 //! reflect more. Measured for fibres as long as the layer is thick, over the cells of the figure, R is too high by 2.6%
-//! where the diameter is a tenth of the thickness, by 1 to 1.6% at 3% of it, and by 0.3 to 0.8% at 1% (two runs, each ±
-//! 0.2%).
+//! where the diameter is a tenth of the thickness, by 1 to 1.6% at 3% of it, and by 0.3 to 0.8% at 1% (two runs, each
+//! ± 0.2%).
 
 mod axes;
 mod ball;
