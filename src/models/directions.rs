@@ -13,8 +13,8 @@ use crate::table::{cell, node};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Least alpha of the sheens of prior work, which smaller ones are replaced by: narrower lobes would slip between the
-/// cells from which they are sampled. The least alpha above 0 in the fitted table is 1/31.
+/// Least alpha of the sheens of prior work; smaller ones are replaced by it, because narrower lobes would slip between
+/// the cells from which they are sampled. The least alpha above 0 in the fitted table is 1/31.
 pub const LEAST_ALPHA: f64 = 0.03;
 
 /// Rows, at equal steps of [`place_from_mu`]. The albedo is held there too.

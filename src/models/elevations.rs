@@ -24,8 +24,8 @@ const NODES: usize = 63;
 /// Rows, at the places k / (n - 1).
 const ROWS: usize = 32;
 
-/// Least density over y, relative to its mean: in the far tails of fuzz, lobes are many times larger between nodes than
-/// at them.
+/// Least density over y, relative to its mean: in the far tails of fuzz, a lobe may be many times larger between nodes
+/// than at them.
 const LEAST: f64 = 1e-3;
 
 /// Number of equal parts of \[0, 1) for each of which a row remembers where to begin a search.

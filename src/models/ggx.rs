@@ -47,7 +47,7 @@ impl Schlick {
 
     /// The share of light that comes back from facets of albedo R and Fresnel share S: f0 (R - S) + f90 S, times the gain.
     ///
-    /// At most R / R = 1, because S <= R; exactly that for f0 = f90 = 1.
+    /// At most R / R = 1, because S <= R; exactly 1 for f0 = f90 = 1.
     pub fn albedo(&self, albedo: f64, fresnel: f64) -> f64 {
         (self.f0 * (albedo - fresnel) + self.f90 * fresnel) * self.gain(albedo)
     }

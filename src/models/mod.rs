@@ -25,8 +25,8 @@
 //!
 //! # Example
 //!
-//! What a path tracer does where a path meets the surface: it samples the next direction, and weighs the light that it
-//! has sampled itself.
+//! What a path tracer does where a path meets the surface: it samples the next direction, and weighs light from a
+//! direction that it has found by sampling the lights.
 //!
 //! ```
 //! use glam::DVec3;
