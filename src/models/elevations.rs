@@ -5,8 +5,8 @@
 //! don't vanish there, and falls off as a straight line for others. Between two rows the density is linear, and so is
 //! its integral, which is inverted without choosing one of the two rows at random.
 //!
-//! Only in the cell at the horizon is a row linear in y between nodes: beyond, sqrt(t) p is linear in the place t =
-//! y^(2/3), so that the place itself, which the table's lookup waits for, is sampled without a root. With x running
+//! Only in the cell at the horizon is a row linear in y between nodes: beyond, sqrt(t) p is linear in the place
+//! t = y^(2/3), so that the place itself, which the table's lookup waits for, is sampled without a root. With x running
 //! from 0 to 1 over a cell (x = y / y_1 in the first, x = (NODES - 1) t - k in the others) and t_1 the first cell's
 //! end,
 //!

@@ -30,8 +30,8 @@
 //! k = h step,          W = V step,                            A + W = a + step (h + V),
 //! ```
 //!
-//! The second line holds because a^2 - b^2 = step^2. With f = k / W = h / V, e = 1 - f = G / (V (V + h)) and t = f b r
-//! / W, where A - W = b r,
+//! The second line holds because a^2 - b^2 = step^2. With f = k / W = h / V, e = 1 - f = G / (V (V + h)) and
+//! t = f b r / W, where A - W = b r,
 //!
 //! ```text
 //! K_0 = 1/(4 pi sigma) (e^2 + f t),

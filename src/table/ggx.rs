@@ -12,8 +12,8 @@
 //! once that is taken away, and s is nearly proportional to roughness. All three are smooth down to the mirror, where
 //! a, b, c are not.
 //!
-//! A .csv holds one line for each node, in order of roughness; a .dds holds two textures one above the other, x =
-//! roughness, y = t: at the top the texels u, v, s, 1, below them albedo, fresnel, 0, 1.
+//! A .csv holds one line for each node, in order of roughness; a .dds holds two textures one above the other,
+//! x = roughness, y = t: at the top the texels u, v, s, 1, below them albedo, fresnel, 0, 1.
 
 use super::csv::Columns;
 use super::dds::{self, Texture};

@@ -17,10 +17,10 @@
 //! | x = alpha | 45 alpha^(1/4) - 14 | ((14 + k) / 45)^4: 0.0094 to 1 |
 //! | y = mu_i, z = mu_o | 31 w^(1/3), w = mu^2 (1 + K alpha^4) / (mu^2 + K (1 - (1 - alpha^4) mu^2)), K = 16 alpha^(8/3) | where that is k |
 //!
-//! Light at mu scatters 1 / mu times, and is turned by its own elevation in all where mu is near sigma^(2/3) =
-//! alpha^(4/3): there the nodes are densest, for the alpha of the lookup itself, not for that of a node. Lookups are
-//! linear between the nodes, whose values are fitted for that. Two modes leave out 0.3% of a lobe (relative L2), three
-//! 0.05%.
+//! Light at mu scatters 1 / mu times, and its turns add up to its own elevation where mu is near
+//! sigma^(2/3) = alpha^(4/3): there the nodes are densest, for the alpha of the lookup itself, not for that of a node.
+//! Lookups are linear between the nodes, whose values are fitted for that. Two modes leave out 0.3% of a lobe
+//! (relative L2), three 0.05%.
 
 use super::{TableError, cell, half_steps};
 use crate::math::{check_cosine, cube_root};
@@ -131,8 +131,7 @@ impl SlabTable {
 
     /// What the table says of `alpha` in (0, 1\].
     ///
-    /// Below the first node, .0094, values are extrapolated linearly: the lobe is off by 2% at .008, 6% at .0065, 13%
-    /// at
+    /// Below the first node, .0094, values are extrapolated linearly: the lobe is off by 2% at .008, 6% at .0065, 13% at
     /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still along the axis of mu, so that lobes
     /// fade too soon and are off by 42% at .004, 85% at .002.
     pub fn slice(&self, alpha: f64) -> SlabSlice {

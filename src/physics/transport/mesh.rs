@@ -14,7 +14,7 @@ const WIDEST: f64 = 0.25;
 const GROWTH: f64 = 2.0;
 
 /// Panels grow from this many sigma^(2/3) above the horizon. Light at mu scatters 1 / mu times and is turned by sigma
-/// each time, by sigma / sqrt(mu) in all: this reaches its own elevation where sigma / sqrt(mu) = mu.
+/// each time, by sigma / sqrt(mu) in all, which is as much as its own elevation where sigma / sqrt(mu) = mu.
 const GRAZING_REACH: f64 = 3.0;
 
 /// How often the panel at the horizon is split towards it, in ratios of 4: functions behave as mu ln(mu) there.

@@ -86,8 +86,7 @@ pub struct Transport {
 impl Transport {
     /// Solves the slab, of alpha >= [`LEAST_ALPHA`]. Takes some milliseconds per mode for alpha > .2, a tenth of a
     /// second at 1/31, 20 s at .001. Meshes are made for a thickness of 1; up to 100, two of them agree to 1e-9 in R
-    /// (alpha = .5). Panics where `slab` or
-    /// `resolution` is outside its range.
+    /// (alpha = .5). Panics where `slab` or `resolution` is outside its range.
     ///
     /// Against finer meshes, R is off by 2e-4 of itself or less, and lobes (relative L2) by 3e-4 for alpha >= 2/31 and mu >= 1e-3. At the
     /// horizon itself lobes are off by 5e-3: where both cosines go to 0 they have no common limit.
@@ -183,8 +182,8 @@ impl Transport {
     }
 
     /// The transmitted lobe, per steradian, all orders except the unscattered light: radiance times cosine, below, per
-    /// unit of flux from `wi`. Both directions are unit and point away from the slab, `wi` with z >= 0 and `wo` with z
-    /// <= 0. See [`Resolution::ridge`].
+    /// unit of flux from `wi`. Both directions are unit and point away from the slab, `wi` with z >= 0 and `wo` with
+    /// z <= 0. See [`Resolution::ridge`].
     pub fn transmitted(&self, wi: DVec3, wo: DVec3) -> f64 {
         self.slab.single_transmission(wi, wo) + self.multiple_transmitted(wi, wo)
     }
