@@ -110,8 +110,8 @@ impl Frame {
         self.draw_egui(&mut encoder, &view, &jobs, output.pixels_per_point);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(surface_texture);
-        // Never more than one frame ahead, so that a slow driver still answers to the latest drag, and that the frame
-        // time is this frame's.
+        // Never more than one frame ahead, so that a slow driver still answers to the latest drag; and the frame time is
+        // the frame's.
         let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
         freed.iter().for_each(|id| self.egui.free_texture(id));
         Ok(Presented::Yes)
@@ -196,7 +196,7 @@ impl Frame {
     }
 }
 
-/// The first of velour-001.png to velour-999.png that does not exist yet.
+/// The first of velour-001.png to velour-999.png that is not there.
 fn free_name() -> Option<PathBuf> {
     (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.png"))).find(|path| !path.exists())
 }
