@@ -12,10 +12,11 @@ import numpy as np
 from numba import njit
 
 GRAVITY = 9.81
-# How near layers come to each other, in cells: well over a cell's half diagonal (0.71), so that no vertex slips through between
-# others.
+# How near layers may come to each other, in cells: well over a cell's half diagonal (0.71), so that no vertex slips
+# through between others.
 GAP = 0.85
-# Two cells may close to this part of their length, a turn of 2 acos(0.85) = 64 degrees from cell to cell.
+# Two neighbouring cells may fold until they span this part of their length, a turn of 2 acos(0.85) = 64 degrees between
+# them.
 SHARPEST = 0.85
 
 

@@ -22,7 +22,8 @@ OFFSET = (0.02, -0.03)
 COARSE = 101
 SMOOTHING_PASSES = 1
 
-# Seconds, substep, drag: the fall, then with every cell split in four the folds' finer shape, then rest.
+# Seconds, substep, drag: for the fall; then, with every cell split in four, for the folds' finer shape; then for coming
+# to rest.
 FALL, SETTLE, REST = (3.0, 1e-3, 2.0), (0.6, 5e-4, 1.5), (0.4, 5e-4, 30.0)
 
 
@@ -95,7 +96,7 @@ def main(path):
     normals = glb.vertex_normals(vertices, glb.grid_triangles(n, n))
     vertices = cloth.smooth(vertices, normals, n, SMOOTHING_PASSES)
     cloth.lift(vertices, FORM, cloth.Fabric.clearance)
-    # Turned about, so that the upper side is the front.
+    # Reversed, so that the upper side is the front.
     triangles = glb.grid_triangles(n, n, falling=fold_lines(vertices, flat))[:, ::-1]
     check(vertices, flat, triangles)
     velvet = glb.matte("velvet", (0.05, 0.0025, 0.0065), 1.0, sheen_color=(0.95, 0.1, 0.15), sheen_roughness=0.4, double_sided=True)
@@ -104,7 +105,7 @@ def main(path):
     parts = [
         glb.Part("cloth", vertices, glb.vertex_normals(vertices, triangles), triangles, velvet),
         glb.Part("floor", *glb.backdrop(half_width=10.0, front=6.0, rear=-6.0, height=8.0, radius=2.5), floor),
-        # A warm softbox high at the left, and behind at the right, in the picture, a cool one that grazes the folds.
+        # A warm softbox high up on the picture's left, and a cool one behind on its right, which grazes the folds.
         glb.polygon_light("key", glb.rectangle(2.0, 1.4), (40.0, 33.0, 26.0), (-2.3, 2.0, 1.2), middle),
         glb.polygon_light("rim", glb.regular_polygon(6, 0.25), (230.0, 285.0, 385.0), (1.38, 1.08, -1.7), middle),
     ]

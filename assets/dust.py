@@ -12,9 +12,11 @@ import glb
 
 # Vertices along the ring and around its cross-section.
 ALONG, AROUND = 340, 72
-# Of the cross-section on the way round. A multiple of a third that isn't whole: the three keels are one edge, three times round.
+# Turns of the cross-section on its way round the ring. A multiple of a third that isn't whole: so the three keels are
+# one edge, which goes three times round.
 TURNS = -5.0 / 3.0
-# From the ring's middle to its cross-section's (metres), how far the keels reach from there, and by which part more below.
+# The distance from the ring's middle to its cross-section's (metres), how far the keels reach from the latter, and by
+# what part more below.
 RING, THICKNESS, GROWTH = 0.33, 0.19, 0.25
 # How deep the form is let into the plinth, and how it is turned to the camera.
 SUNK, YAW = 0.025, np.radians(-24.0)
@@ -51,7 +53,7 @@ def ring():
     normals = np.cross(dv, du)
     normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
     triangles = glb.grid_triangles(ALONG, AROUND, wrap_rows=True, wrap_columns=True)
-    # Across the seam v is TURNS turns on: the vertex (ALONG, j) is (0, j + TURNS * AROUND).
+    # Across the seam v goes on by TURNS turns: the vertex (ALONG, j) is (0, j + TURNS * AROUND).
     seam = triangles.reshape(ALONG, -1, 3)[-1]
     first = seam < AROUND
     seam[first] = (seam[first] + round(TURNS * AROUND)) % AROUND
@@ -91,7 +93,7 @@ def check(vertices, triangles):
         file=sys.stderr,
     )
     assert 30_000 <= len(triangles) <= 50_000
-    # Closed, and one way round: each edge is run through once in each direction. A ring: V - E + F = 0.
+    # Closed and consistently wound: each edge occurs once in each direction. A ring: V - E + F = 0.
     there, back = (set(map(tuple, e)) for e in (edges, edges[:, ::-1]))
     assert len(there) == len(edges) and there == back
     assert len(vertices) - len(edges) // 2 + len(triangles) == 0

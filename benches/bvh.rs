@@ -1,7 +1,9 @@
-//! Rays against the default scene's 80,000 triangles: building hierarchies over them, and following rays through.
+//! Rays against the default scene's 80,000 triangles: the time to build hierarchies over them, and to trace rays
+//! through them.
 //!
-//! The library's is one of eight boxes a node in `f32` around triangles met in `f64`; beside it stands one of two boxes a node, by the
-//! same crate. Rays are a camera's, side by side, and those of light that is scattered from where they meet the scene.
+//! The library's hierarchy has nodes of eight boxes in `f32`, around triangles that are intersected in `f64`. It is
+//! compared with one of two boxes per node, by the same crate. The rays are a camera's, side by side, and those of
+//! light that is scattered from where these meet the scene.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -64,7 +66,7 @@ fn triangles() -> Vec<Triangle> {
     scene.instances.iter().flat_map(of_instance).collect()
 }
 
-/// The camera's rays, and one at random from each place that they meet.
+/// The camera's rays, and a random one from each place where they meet the scene.
 fn rays(bvh: &Bvh<Triangle>) -> [Vec<Ray>; 2] {
     let origin = DVec3::new(0.6, 1.2, 2.4);
     let towards = |k: usize| {

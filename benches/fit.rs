@@ -1,7 +1,8 @@
-//! What the tables cost: the slab's solution for one alpha, the random walk to hold against it, the fits of both tables.
+//! What the tables cost: the slab's solution for one alpha, the random walk to compare it with, the fits of both
+//! tables.
 //!
-//! `cargo bench --no-default-features --bench fit`. Before the timings it prints, for some cells, how long the walk takes to know R as
-//! well as the solver does: its paths go with the inverse square of the error.
+//! `cargo bench --no-default-features --bench fit`. Before the timings it prints, for some cells, how long the walk
+//! takes to know R as well as the solver does: the paths that it needs grow with the inverse square of the error.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -32,7 +33,7 @@ fn equal_error() {
         let start = Instant::now();
         let counts = pool.install(|| few.run());
         let walking = start.elapsed().as_secs_f64();
-        // A binomial's standard error, of what is scattered more than once; relative to R.
+        // The standard error of a binomial distribution, of light that is scattered more than once; relative to R.
         let more = counts.reflected_more.total() as f64;
         let noise = few.share() * (more * (1.0 - more / few.paths as f64)).sqrt() / truth;
         let times = (noise / error).powi(2);

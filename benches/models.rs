@@ -9,7 +9,7 @@ use velour::math::warp::{cosine_hemisphere, uniform};
 use velour::models::{Bsdf, Burley, ContyKulla, LtcSheen, NeubeltPettineo, Patry, SlabSheen, Terminator};
 use velour::table::{SheenTable, SlabTable};
 
-/// Different calls in turn, so that no branch is learnt by heart.
+/// Number of different calls, made in turn, so that the processor cannot learn their branches by heart.
 const CALLS: usize = 4096;
 
 fn calls(c: &mut Criterion, name: &str, model: &dyn Bsdf) {

@@ -1,6 +1,7 @@
 //! What a pixel pays for a rectangle light: the shipped files against the published quad shader, each a full-screen triangle.
 //!
-//! The variants take turns, so that whatever else the machine does meets all of them; figures are medians over the rounds.
+//! The variants take turns, so that whatever else the machine does slows all of them alike; figures are medians over
+//! the rounds.
 
 use glam::{Vec3, Vec4};
 use half::f16;
@@ -11,7 +12,7 @@ use wgpu::util::DeviceExt;
 
 const SIZE: [u32; 2] = [1280, 720];
 const ROUNDS: usize = 30;
-/// What a sample lasts at least, so that submitting it does not count.
+/// The least duration of a sample, against which the time to submit it does not count.
 const SAMPLE: Duration = Duration::from_millis(20);
 const SPECULAR_NODES: u32 = 64;
 
@@ -29,7 +30,7 @@ const FILTERED: usize = 2;
 const SHIPPED: usize = 3;
 const WITH_SHEEN: usize = 4;
 
-/// The target and what all variants read.
+/// The target, and what all variants read.
 struct Stage {
     gpu: Gpu,
     target: wgpu::Texture,
@@ -135,7 +136,7 @@ impl Stage {
         })
     }
 
-    /// Seconds for a picture, drawn so many times over.
+    /// Seconds for a picture, which is drawn this many times in a row.
     fn draw(&self, pipeline: &wgpu::RenderPipeline, times: u32) -> f64 {
         let view = self.target.create_view(&Default::default());
         let start = Instant::now();
@@ -206,7 +207,7 @@ fn table(gpu: &Gpu, width: u32, texels: &[[f32; 4]]) -> wgpu::TextureView {
     texture.create_view(&Default::default())
 }
 
-/// As `Scene` in the shaders: an upright light that leans and is turned a little, and the eye.
+/// The shaders' `Scene`: an upright light that leans and is turned a little, and the eye.
 fn scene() -> Vec<Vec4> {
     let (centre, across, up) = (Vec3::new(0.3, 9.0, 2.6), Vec3::new(5.0, 0.4, 0.3), Vec3::new(-0.25, 0.75, 2.5));
     let corners = [centre + across - up, centre + across + up, centre - across + up, centre - across - up];
@@ -236,8 +237,8 @@ fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     sorted[sorted.len() / 2]
 }
 
-/// How far a variant's diffuse form factors are from the published ones: mean and greatest. A variant that lights something
-/// else would be timed for nothing.
+/// How far a variant's diffuse form factors are from the published ones: mean and greatest difference. It would be no
+/// use to time a variant that lights something else.
 fn difference(pictures: &[Vec<[f16; 4]>], variant: usize) -> [f64; 2] {
     let differences = pictures[variant].iter().zip(&pictures[PUBLISHED]).map(|(a, b)| (a[1] - b[1]).to_f64().abs());
     let (sum, greatest) = differences.fold((0.0, 0.0_f64), |(sum, greatest), next| (sum + next, greatest.max(next)));

@@ -1,12 +1,12 @@
 // The published real-time form (Heitz, Dupuy, Hill and Neubelt 2016, with the fitted arccosine of its later notes): per lobe,
-// transform the quad, clip it by a table of sixteen cases, put it on the sphere, sum the vector form of its edges.
+// transform the quad, clip it by a table of sixteen cases, project it onto the sphere, sum its edges in vector form.
 
 struct Clipped {
     v: array<vec3<f32>, 5>,
     count: u32,
 }
 
-// The edge from an upper to a lower vertex, where it meets the horizon.
+// Where the edge from an upper to a lower vertex meets the horizon.
 fn published_cut(up: vec3<f32>, down: vec3<f32>) -> vec3<f32> {
     return up.z * down - down.z * up;
 }
@@ -63,7 +63,8 @@ fn published_clip(q: array<vec3<f32>, 4>) -> Clipped {
     }
 }
 
-// z of the edge's contribution between unit vectors: the angle over its sine by a fitted rational function.
+// The z component of an edge's contribution, between unit vectors: the angle over its sine is a fitted rational
+// function.
 fn published_edge(p: vec3<f32>, q: vec3<f32>) -> f32 {
     let x = dot(p, q);
     let y = abs(x);

@@ -1,4 +1,5 @@
-// What every variant shades: a wavy floor seen in perspective, lit by one rectangle that dips below the horizon of some pixels.
+// What every variant shades: a wavy floor seen in perspective, lit by one rectangle that reaches below the horizon of
+// some points.
 
 struct Scene {
     corners: array<vec4<f32>, 4>,  // counter-clockwise from the lit side

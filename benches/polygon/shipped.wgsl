@@ -5,7 +5,7 @@ struct Specular {
     weights: vec2<f32>,
 }
 
-// With the published form's two filtered fetches.
+// With two filtered fetches, as the published form has them.
 fn filtered_specular(at: Point) -> Specular {
     let size = vec2<f32>(textureDimensions(specular_matrices));
     let uv = (vec2(at.roughness, dot(at.normal, at.view)) * (size - 1.0) + 0.5) / size;
@@ -14,7 +14,7 @@ fn filtered_specular(at: Point) -> Specular {
     return Specular(mat3x3(abc.x, 0.0, 0.0, 0.0, abc.z, 0.0, abc.y, 0.0, 1.0), weights.xy);
 }
 
-// With loads and weights of its own, as sheen.wgsl does it.
+// With four loads and its own weights, as in sheen.wgsl.
 fn loaded_specular(at: Point) -> Specular {
     let last = textureDimensions(specular_matrices) - 1u;
     let node = clamp(vec2(at.roughness, dot(at.normal, at.view)), vec2(0.0), vec2(1.0)) * vec2<f32>(last);

@@ -9,24 +9,24 @@ use plotters::style::{BLACK, Color, IntoFont, RGBColor, TextStyle, WHITE};
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
-/// Of frames, circles and what else stays behind the curves.
+/// Colour of frames, circles and whatever else stays behind the curves.
 pub const FAINT: RGBColor = RGBColor(196, 196, 196);
-/// Of captions and scales.
+/// Colour of captions and scales.
 pub const GREY: RGBColor = RGBColor(90, 90, 90);
 
-/// Font sizes of captions, of labels and of titles. plotters divides by 1.24 what it is given.
+/// Font sizes of captions, of labels and of titles, which plotters divides by 1.24.
 pub const CAPTION: f64 = 15.0;
 pub const LABEL: f64 = 17.0;
 pub const TITLE: f64 = 21.0;
-/// From a line of a caption to the next.
+/// Distance from one line of a caption to the next.
 const LINE: i32 = 16;
-/// Most that a caption's character is wide, on average: nothing here knows the viewer's font.
+/// Upper bound of the average width of a caption's characters: nothing here knows the viewer's font.
 const CHARACTER: f64 = 6.8;
 /// Between a caption and what is around it.
 const GAP: i32 = 10;
 
-/// A picture of `size` pixels as the text of an SVG file. plotters places everything on whole numbers: it draws with `units` of
-/// them a pixel, and so do the lengths that `draw` gives it.
+/// A picture of `size` pixels as the text of an SVG file. plotters places everything on whole numbers, of which there
+/// are `units` to a pixel; the lengths that `draw` uses are in these units.
 pub fn svg(size: [i32; 2], units: i32, draw: impl FnOnce(&Area) -> Drawn) -> String {
     assert!(size.iter().all(|side| *side > 0) && units > 0, "a picture has pixels: {size:?}, {units}");
     let [width, height] = size.map(|side| (side * units) as u32);
@@ -37,11 +37,11 @@ pub fn svg(size: [i32; 2], units: i32, draw: impl FnOnce(&Area) -> Drawn) -> Str
         drawn.expect("a string takes whatever is drawn");
     }
     let [drawn, shown] = [[width as i32, height as i32], size].map(|[x, y]| format!("width=\"{x}\" height=\"{y}\""));
-    // What is said of each of thousands of cells although it is so anyway.
+    // An attribute of each of thousands of cells that says no more than the default.
     text.replacen(&drawn, &shown, 1).replace("opacity=\"1\" ", "")
 }
 
-/// Text of a size and colour, to be placed by its middle in height and by `side` in width.
+/// Text of a size and colour, anchored at half its height and, across its width, at `side`.
 pub fn text(size: f64, color: RGBColor, side: HPos) -> TextStyle<'static> {
     TextStyle {
         font: ("sans-serif", size).into_font(),
@@ -66,12 +66,12 @@ pub fn lines(caption: &str, pixels: i32) -> Vec<String> {
     lines
 }
 
-/// The height that so many lines of a caption take.
+/// The height that this many lines of a caption take, in pixels.
 pub fn caption_height(lines: usize) -> i32 {
     lines as i32 * LINE + 2 * GAP
 }
 
-/// Writes a caption's lines from `corner` down, which is the upper left one of its place, `units` to a pixel.
+/// Writes a caption's lines downwards from its upper left corner, in pixels of `units` each.
 pub fn caption(area: &Area, lines: &[String], [x, y]: [i32; 2], units: i32) -> Drawn {
     let style = text(CAPTION * f64::from(units), GREY, HPos::Left);
     for (k, line) in lines.iter().enumerate() {
@@ -80,7 +80,7 @@ pub fn caption(area: &Area, lines: &[String], [x, y]: [i32; 2], units: i32) -> D
     Ok(())
 }
 
-/// Writes a title around `center`, `units` to a pixel.
+/// Writes a title centred on a point, in pixels of `units` each.
 pub fn title(area: &Area, line: &str, [x, y]: [i32; 2], units: i32) -> Drawn {
     area.draw_text(line, &text(TITLE * f64::from(units), BLACK, HPos::Center), (x * units, y * units))
 }

@@ -6,16 +6,17 @@ use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::ViridisRGB;
 use std::ops::Range;
 
-/// Which numbers the colours stand for; all finite, the first below the last.
+/// The range of numbers that the colours stand for; both ends finite, the first below the last.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scale {
+    /// Equal differences are equal steps.
     Linear(Range<f64>),
     /// Equal factors are equal steps; above 0.
     Log(Range<f64>),
 }
 
 impl Scale {
-    /// The linear scale on which all `values` are; around them where they are all one number.
+    /// The linear scale that spans all `values`; a wider one around them where they are all the same number.
     pub fn of(values: impl Iterator<Item = f64>) -> Self {
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
         assert!(low <= high, "a scale of no numbers");
@@ -23,7 +24,7 @@ impl Scale {
         Self::Linear(low - spare..high + spare)
     }
 
-    /// The place of `value` on the scale, in \[0, 1\]; that of the nearer end where it is past it.
+    /// The place of `value` on the scale, in \[0, 1\]; the nearer end's where `value` is outside.
     pub fn place(&self, value: f64) -> f64 {
         let place = match self {
             Self::Linear(range) => (value - range.start) / (range.end - range.start),
@@ -41,12 +42,12 @@ impl Scale {
         }
     }
 
-    /// Round numbers on the scale, ascending: what stands beside it.
+    /// Round numbers on the scale, ascending, with which it is labelled.
     pub fn ticks(&self) -> Vec<f64> {
         match self {
             Self::Linear(range) => {
                 let step = (range.end - range.start) / 8.0;
-                // The noise of sums of steps, where 0 is meant.
+                // Where 0 is meant, sums of steps leave noise.
                 let ticks = RangedCoordf64::from(range.clone()).key_points(8);
                 ticks.into_iter().map(|tick| if tick.abs() < 1e-9 * step { 0.0 } else { tick }).collect()
             }
@@ -57,8 +58,8 @@ impl Scale {
         }
     }
 
-    /// The colour of `value`: viridis (Smith and van der Walt 2015), dark for low, in which equal steps look equal and brightness alone
-    /// tells the order; eight of its colours, linear in between, as plotters has it.
+    /// The colour of `value`: viridis (Smith and van der Walt 2015), dark for low, in which equal steps look equal and
+    /// brightness alone tells the order. plotters interpolates linearly between eight of its colours.
     pub fn color(&self, value: f64) -> RGBColor {
         ViridisRGB::get_color(self.place(value))
     }
@@ -96,7 +97,7 @@ mod tests {
             assert_eq!([scale.place(scale.value(0.0)), scale.place(scale.value(1.0))], [0.0, 1.0]);
             assert_eq!(scale.color(1e9), scale.color(scale.value(1.0)));
         }
-        // No error at all is off the lower end.
+        // An error of 0 is off the lower end.
         assert_eq!(Scale::Log(1e-4..1.0).place(0.0), 0.0);
     }
 

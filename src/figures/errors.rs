@@ -17,12 +17,13 @@ pub const LOBE_CELLS: usize = 48;
 /// Cells a side of r's errors.
 pub const ALBEDO_CELLS: usize = 96;
 
-/// Steps of [`errors`] that are told.
+/// How often [`errors`] calls `step`.
 pub const fn steps() -> usize {
     LOBE_CELLS + ALBEDO_CELLS
 }
 
-/// The errors of `table`'s lobes and of its r, where R >= 1e-3. `step` is told of each row, from any of the working threads.
+/// The errors of `table`'s lobes and of its r, where R >= 1e-3. `step` is called after each row, from any of the
+/// working threads.
 pub fn errors(table: &SheenTable, step: impl Fn() + Sync) -> Vec<Figure> {
     vec![lobe_figure(table, &step), albedo_figure(table, &step)]
 }
@@ -49,7 +50,7 @@ fn albedo_figure(table: &SheenTable, step: impl Fn() + Sync) -> Figure {
     figure(table, NAMES[1], "Error of the table's r", about, &field, Scale::Log(1e-4..1.0))
 }
 
-/// None where R is below [`DIM`].
+/// The relative L2 error of a lobe; `None` where R is below [`DIM`].
 fn lobe_error(table: &SheenTable, lobes: &Lobes, alpha: f64, mu: f64) -> Option<f64> {
     let albedo = lobes.transport.albedo(mu);
     if albedo < DIM {
@@ -63,7 +64,7 @@ fn lobe_error(table: &SheenTable, lobes: &Lobes, alpha: f64, mu: f64) -> Option<
     Some((square / hemisphere.integral(|node| shape[node].powi(2))).sqrt())
 }
 
-/// None where R is below [`DIM`].
+/// The relative error of r; `None` where R is below [`DIM`].
 fn albedo_error(table: &SheenTable, transport: &Transport, alpha: f64, mu: f64) -> Option<f64> {
     let albedo = transport.albedo(mu);
     (albedo >= DIM).then(|| (table.lookup(alpha, mu)[2] / albedo - 1.0).abs())

@@ -13,14 +13,14 @@ use std::ops::Range;
 
 /// Sides of the image in pixels, a multiple of the cells that are drawn.
 const SIDE: i32 = 576;
-/// What plotters takes for it: it counts points, not what is between them.
+/// The same as plotters counts it: points, not the gaps between them.
 const SPAN: i32 = SIDE + 1;
 const TITLE_HEIGHT: i32 = 44;
 const LEFT: i32 = 72;
 /// Left of everything.
 const MARGIN: i32 = 14;
 const BELOW: i32 = 52;
-/// Of the bar of colours: from the image, its width, and its labels'.
+/// Of the bar of colours: its distance from the image, its width, and its labels' width.
 const BAR_GAP: i32 = 30;
 const BAR: i32 = 22;
 const BAR_LABELS: i32 = 72;
@@ -35,12 +35,12 @@ pub struct Field {
     pub size: [usize; 2],
     /// The axes' ends, the outer edges of the first and the last cells.
     pub edges: [Range<f64>; 2],
-    /// Cell by cell, alpha-major; none where nothing is to be shown.
+    /// Cell by cell, alpha-major; `None` where nothing is to be shown.
     pub values: Vec<Option<f64>>,
 }
 
 impl Field {
-    /// Of what stands at `n` cells' centres, (k + 1/2) / n: centres and values are those of the unit square.
+    /// The field of `values` at the centres of n x n cells of the unit square, at (k + 1/2) / n along either axis.
     pub fn of_centers(n: usize, values: Vec<Option<f64>>) -> Self {
         assert_eq!(values.len(), n * n, "values of {n} x {n} cells");
         Self { size: [n; 2], edges: [0.0..1.0, 0.0..1.0], values }
@@ -56,7 +56,7 @@ impl Field {
 /// What is written around a field.
 pub struct Labels<'a> {
     pub title: &'a str,
-    /// What grey cells are.
+    /// What grey cells mean, where there are any.
     pub absent: Option<&'a str>,
     pub caption: &'a str,
 }
@@ -96,8 +96,8 @@ fn draw_image(area: &Area, field: &Field, scale: &Scale) -> Drawn {
     mesh.x_label_formatter(&one_decimal).y_label_formatter(&one_decimal).draw()
 }
 
-/// A cell reaches a pixel under those to its right and above, which are drawn later: else a viewer that blends the edges of both lets
-/// the paper shine through.
+/// Each cell extends by a pixel under those to its right and above, which are drawn later: otherwise viewers that blend
+/// the edges of both let the paper shine through.
 fn draw_cells(
     chart: &ChartContext<SVGBackend, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
     field: &Field,
@@ -127,7 +127,7 @@ fn draw_bar(area: &Area, scale: &Scale) -> Drawn {
     let height = |place: f64| SIDE - (place * f64::from(SIDE)).round() as i32;
     for k in 0..BAR_STEPS {
         let [low, middle] = [0.0, 0.5].map(|within| (f64::from(k) + within) / f64::from(BAR_STEPS));
-        // Up to the top, under the next ones, for the same reason as the image's.
+        // Up to the top, under the next steps, for the same reason as with the image's cells.
         let corners = [(left, 0), (left + BAR, height(low))];
         area.draw(&Rectangle::new(corners, scale.color(scale.value(middle)).filled()))?;
     }
@@ -145,7 +145,7 @@ fn short(value: f64) -> String {
     format!("{rounded}")
 }
 
-/// What grey is, below the bar.
+/// Says below the bar what grey means.
 fn draw_absent(area: &Area, absent: &str) -> Drawn {
     let (left, top) = (BAR_GAP / 2, SIDE + 18);
     area.draw(&Rectangle::new([(left, top), (left + BAR, top + BAR / 2)], ABSENT.filled()))?;
@@ -170,7 +170,7 @@ mod tests {
         let scale = Scale::Linear(0.0..5.0);
         let parsed = small(&scale);
         let cell = |color: RGBColor| -> Rectangle {
-            // The bar has neither end's colour, but at its middles.
+            // The bar's steps have the colours of their middles, so that neither end's colour is among them.
             let found: Vec<_> =
                 parsed.rectangles.iter().filter(|one| one.color == color && one.width > 200.0).collect();
             assert_eq!(found.len(), 1, "{color:?}");

@@ -10,13 +10,14 @@ use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 
+/// The figure's file name.
 pub const NAME: &str = "lobes.svg";
 
-/// Roughnesses, a row of panels each; the cosines of `wi` are the columns.
+/// Roughnesses, one for each row of panels, and cosines of `wi`, one for each column.
 pub const ALPHAS: [f64; 4] = [0.1, 0.3, 0.6, 1.0];
 pub const MUS: [f64; 3] = [0.1, 0.4, 0.8];
 
-/// Paths of a walk, those that pass unscattered not counted. The walks' seeds are 1 and up, in the panels' order.
+/// Paths of a walk, not counting those that pass unscattered. The walks' seeds are 1, 2, ... in the panels' order.
 const PATHS: u64 = 1 << 21;
 /// Where less light than this comes back, more paths are sent.
 const DIM: f64 = 0.01;
@@ -32,36 +33,37 @@ const WORDS: Words = Words {
 /// Elevations at which curves are computed: 1/4 degree apart.
 const STEPS: usize = 720;
 
-/// Neighbouring bins of the walk are pooled until they hold so many paths, an error of 4%, and are so wide, or are widest.
+/// Neighbouring bins of the walk are pooled until they hold this many paths, for an error of 4%, and are at least this
+/// wide, or until they are as wide as allowed.
 const POOL_COUNTS: u64 = 625;
 const POOL_LEAST: f64 = 1.5 * PI / 180.0;
 const POOL_MOST: f64 = 8.0 * PI / 180.0;
-/// Bins of azimuths on either side of the plane of incidence that are counted to it.
+/// Bins of azimuths on either side of the plane of incidence that count as being in it.
 const SECTOR: usize = 1;
-/// Fewer paths than this say little, and less of their own error.
+/// Pools of fewer paths than this say little, and even less about their own error.
 pub(super) const FEWEST: u64 = 25;
 
-/// A lobe per steradian, along the elevations from the normal in \[-pi/2, pi/2\], above 0 towards `wi`.
+/// Points (elevation, lobe per steradian); elevations are from the normal, in \[-pi/2, pi/2\], positive towards `wi`.
 pub type Curve = Vec<[f64; 2]>;
 
 /// What a walk found over a range of elevations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pool {
-    /// Elevations from the normal, the lower first; both above 0 towards `wi`, or both below.
+    /// Elevations from the normal, the lower first; both positive, towards `wi`, or both negative.
     pub elevations: [f64; 2],
     /// Paths that left there.
     pub count: u64,
-    /// The lobe's mean over them and the sector, per steradian, and its standard error.
+    /// The lobe's mean over these elevations and the sector, per steradian, and its standard error.
     pub mean: f64,
     pub error: f64,
 }
 
-/// Steps of [`lobes`] that are told.
+/// How often [`lobes`] calls `step`.
 pub const fn steps() -> usize {
     ALPHAS.len() * MUS.len()
 }
 
-/// Small multiples of the lobe f_r mu_o, alpha from 0.1 to 1 by mu from 0.1 to 0.8. `step` is told of each panel.
+/// Small multiples of the lobe f_r mu_o, alpha from 0.1 to 1 by mu from 0.1 to 0.8. `step` is called after each panel.
 pub fn lobes(table: &SheenTable, step: impl Fn()) -> Figure {
     let mut panels = Vec::new();
     for alpha in ALPHAS {
@@ -106,12 +108,12 @@ fn panel(table: &SheenTable, transport: &Transport, [alpha, mu]: [f64; 2], seed:
     }
 }
 
-/// To four decimals; small numbers to three digits.
+/// A number with four decimals, or with three digits where it is small.
 pub(super) fn digits(value: f64) -> String {
     if value < 1e-3 { format!("{value:.2e}") } else { format!("{value:.4}") }
 }
 
-/// Azimuth to which the sectors next to the plane of incidence reach, on either side of it: the walk's first bin and its last.
+/// The azimuth up to which the sectors reach on either side of the plane of incidence.
 fn sector() -> f64 {
     Histogram::phi_range(SECTOR - 1)[1]
 }
@@ -122,14 +124,14 @@ pub(super) fn curve(lobe: impl Fn(DVec3) -> f64) -> Curve {
     (0..=STEPS).map(|k| [elevation(k), lobe(in_plane(elevation(k)))]).collect()
 }
 
-/// The direction in the plane of incidence of an elevation from the normal in \[-pi/2, pi/2\], above 0 towards `wi`.
+/// The direction in the plane of incidence at an elevation from the normal in \[-pi/2, pi/2\], positive towards `wi`.
 pub(super) fn in_plane(elevation: f64) -> DVec3 {
     let (x, z) = elevation.sin_cos();
     DVec3::new(x, 0.0, z.max(0.0))
 }
 
-/// The walk's histogram over `sector` bins of azimuths on either side of the plane of incidence, from the horizon opposite of `wi` to the one
-/// below it; each path stands for `share` of the light.
+/// The walk's histogram over `sector` bins of azimuths on either side of the plane of incidence, from the horizon
+/// opposite `wi` to the horizon on its side; each path stands for `share` of the light.
 pub(super) fn pools(counts: &Counts, share: f64, sector: usize) -> Vec<Pool> {
     let away = pools_of_side(counts, share, Histogram::PHI_BINS - sector..Histogram::PHI_BINS);
     let mirrored = away.into_iter().map(|pool| {
@@ -140,7 +142,7 @@ pub(super) fn pools(counts: &Counts, share: f64, sector: usize) -> Vec<Pool> {
     mirrored.chain(towards.into_iter().rev()).collect()
 }
 
-/// Pools of some bins of azimuths, from the horizon up, elevations as if towards `wi`.
+/// Pools of some bins of azimuths, from the horizon up, with elevations as if they were towards `wi`.
 fn pools_of_side(counts: &Counts, share: f64, columns: Range<usize>) -> Vec<Pool> {
     let azimuths = Histogram::phi_range(columns.len() - 1)[1];
     let in_row = |row: &[u64]| row[columns.clone()].iter().sum::<u64>();
@@ -213,7 +215,7 @@ mod tests {
         }
     }
 
-    /// How many standard errors the pools are from a solution's means over the same directions: root of the mean square.
+    /// How many standard errors the pools are from a solution's means over the same directions, as a root mean square.
     fn distance(pools: &[Pool], transport: &Transport, mu: f64) -> f64 {
         let wi = in_plane(mu.acos());
         let off = |pool: &Pool| {
@@ -239,7 +241,7 @@ mod tests {
             for pair in pools.windows(2) {
                 assert!((pair[0].elevations[1] - pair[1].elevations[0]).abs() < 1e-12, "a gap: {pair:?}");
             }
-            // Of 50 pools or so: 1 +- 0.1. A wrong slab, or the sides exchanged, is further off.
+            // 1 +- 0.1 is expected of 50 pools or so. A wrong slab, or the sides exchanged, is further off.
             let own = distance(&pools, &Transport::new(slab, Resolution::default()), mu);
             assert!((0.7..1.4).contains(&own), "alpha {alpha}, mu {mu}: {own}");
             let other = distance(&pools, &Transport::new(Slab::new(alpha * 0.95), Resolution::default()), mu);

@@ -2,7 +2,7 @@
 //!
 //! - [`table_planes`]: the table's columns a, b, r over (alpha, mu);
 //! - [`lobes`]: the slab's lobes in the plane of incidence, solved, walked and fitted;
-//! - [`fibres`]: the slab beside explicit fibres, which [`all`] leaves out: that takes a minute;
+//! - [`fibres`]: the slab beside explicit fibres, which [`all`] leaves out because it takes a minute;
 //! - [`errors`]: the distance of the table's lobes, and of its interpolated r, from the solution;
 //! - [`plates`]: the paper's figures and our own comparisons, rendered.
 //!
@@ -34,7 +34,7 @@ pub struct Figure {
     pub name: &'static str,
     /// Its file.
     pub svg: String,
-    /// What it shows and with which settings, as it stands below it.
+    /// The text below it: what it shows, and with which settings.
     pub caption: String,
 }
 
@@ -42,7 +42,8 @@ pub struct Figure {
 pub const NAMES: [&str; 6] =
     [planes::NAMES[0], planes::NAMES[1], planes::NAMES[2], lobes::NAME, errors::NAMES[0], errors::NAMES[1]];
 
-/// All figures of `table`. Takes some seconds; `progress` is told (done, all) steps, from any of the working threads.
+/// All figures of `table`. Takes some seconds; `progress` is called with the numbers of steps (done, all), from any of
+/// the working threads.
 pub fn all(table: &SheenTable, progress: impl Fn(usize, usize) + Sync) -> Vec<Figure> {
     let (done, all) = (AtomicUsize::new(0), lobes::steps() + errors::steps());
     progress(0, all);

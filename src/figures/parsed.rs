@@ -3,7 +3,7 @@
 use plotters::style::RGBColor;
 use roxmltree::Document;
 
-/// What is in a picture, which must be XML, in drawing order.
+/// The contents, in drawing order, of a picture, which must be XML.
 pub struct Parsed {
     pub texts: Vec<String>,
     pub rectangles: Vec<Rectangle>,
@@ -46,7 +46,7 @@ impl Parsed {
         parsed
     }
 
-    /// Fails unless some text is just this.
+    /// Fails unless one of the texts is exactly this.
     pub fn says(&self, text: &str) {
         assert!(self.texts.iter().any(|own| own == text), "no '{text}' in {:?}", self.texts);
     }

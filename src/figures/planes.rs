@@ -5,7 +5,7 @@ use super::color::Scale;
 use super::field::{Field, Labels, draw};
 use crate::table::SheenTable;
 
-/// Names of the pictures, of columns a, b, r.
+/// File names of the pictures of columns a, b, r.
 pub const NAMES: [&str; 3] = ["table_a.svg", "table_b.svg", "table_r.svg"];
 
 const ABOUT: [&str; 3] = [
@@ -14,7 +14,7 @@ const ABOUT: [&str; 3] = [
     "r, the albedo, as it is looked up: bilinear between nodes.",
 ];
 
-/// Columns a, b and r of `table` over (alpha, mu), a cell a node and centred on it.
+/// Columns a, b and r of `table` over (alpha, mu), with a cell for each node, centred on it.
 pub fn table_planes(table: &SheenTable) -> Vec<Figure> {
     (0..NAMES.len()).map(|column| plane(table, column)).collect()
 }

@@ -7,13 +7,13 @@ use plotters::style::text_anchor::HPos;
 use plotters::style::{BLACK, Color, RGBColor, ShapeStyle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Whole numbers a pixel: curves are that smooth.
+/// Whole numbers per pixel: the more, the smoother are the curves.
 const UNITS: i32 = 8;
 
 /// A panel's sides, and the radius of its outer circle, in pixels.
 const PANEL: [i32; 2] = [420, 258];
 const RADIUS: f64 = 168.0;
-/// Where the half disc's centre lies in a panel, and its title.
+/// Where in a panel the half disc's centre and the title are.
 const CENTER: [f64; 2] = [210.0, 224.0];
 const TITLE_AT: [i32; 2] = [210, 20];
 /// Left and right of the caption.
@@ -22,7 +22,7 @@ const MARGIN: i32 = 24;
 const HEADER: i32 = 78;
 const LEGEND_AT: f64 = 56.0;
 
-/// Colours that remain apart for the colour-blind (Okabe and Ito 2008).
+/// Colours that colour-blind readers can tell apart (Okabe and Ito 2008).
 const SOLVED: RGBColor = RGBColor(0, 114, 178);
 const FITTED: RGBColor = RGBColor(213, 94, 0);
 const COUNTED: RGBColor = BLACK;
@@ -101,7 +101,7 @@ impl Disc<'_, '_> {
         self.area.draw_text(&panel.title, &canvas::text(LABEL * f64::from(UNITS), BLACK, HPos::Center), (x, y))
     }
 
-    /// Circles, spokes and what they stand for.
+    /// Circles, spokes and their labels.
     fn draw_scale(&self) -> Drawn {
         for share in [0.5, 1.0] {
             self.area
@@ -152,7 +152,7 @@ impl Disc<'_, '_> {
         (0..=steps).map(|k| self.point(from + (to - from) * k as f64 / steps as f64, value)).collect()
     }
 
-    /// Where a value at an elevation from the normal stands: towards `wi` is to the right.
+    /// Where the value at an elevation from the normal is drawn: towards `wi` is to the right.
     fn point(&self, elevation: f64, value: f64) -> (i32, i32) {
         let radius = value / self.outer * RADIUS;
         let [left, top] = self.corner.map(f64::from);
@@ -186,7 +186,7 @@ fn written(value: f64) -> String {
     if value < 1e-3 { format!("{value:e}") } else { format!("{value}") }
 }
 
-/// The nearest number above of one digit and, below 3, a half.
+/// The next larger number with a single digit or, up to 2.5, with halves.
 fn round_up(value: f64) -> f64 {
     assert!(value > 0.0 && value.is_finite(), "a lobe has a largest value: {value}");
     let mut power = value.log10().floor() as i32;

@@ -1,16 +1,17 @@
-//! r at the nodes, so that what is interpolated between them is R.
+//! r at the nodes, such that R is what is interpolated between them.
 //!
-//! R is sampled at [`PER_CELL`] x [`PER_CELL`] points a cell, and the nodes' r minimise
+//! R is sampled at [`PER_CELL`] x [`PER_CELL`] points per cell, and the nodes' r minimise
 //!
 //! ```text
 //! sum over samples with R > 1e-3 of |e|^1.5,  e = (interpolated r) / R - 1,      + a weak pull of every node's r / R towards 1.
 //! ```
 //!
-//! Squares would bend whole cells for the sake of the few points at the corner of low alpha and grazing mu that no bilinear function
-//! meets, magnitudes alone would give these up; the pull holds the nodes that no bright sample touches. Bounds: r in \[R / 14, 1\]. Without
-//! the lower one, r at the node nearest to the corner falls to a hundredth, and whatever grazes at alpha < 2/31 goes dark with it.
-//! At alpha = 0, r = 0: the optimum too. No choice of r keeps the largest error below 0.95 over the whole square: just beside the
-//! corner R rises from nothing to 0.9 within a hundredth of a cell.
+//! Squares would bend whole cells for the sake of the few points at the corner of low alpha and grazing mu that no
+//! bilinear function can meet, and a sum of plain magnitudes would give those points up. The pull holds the nodes that
+//! no bright sample touches. Bounds: r is in \[R / 14, 1\]. Without the lower bound, r at the node nearest to the
+//! corner falls to a hundredth, and all grazing light at alpha < 2/31 goes dark with it. At alpha = 0, r is 0, which is
+//! the optimum too. No choice of r keeps the largest error below 0.95 over the whole square: just beside the corner R
+//! rises from nothing to 0.9 within a hundredth of a cell.
 //!
 //! Solved by iteratively reweighted least squares, each step a few sweeps of projected Gauss-Seidel over the nodes.
 
@@ -29,7 +30,7 @@ const POWER: f64 = 1.5;
 /// Relative errors below which the sum becomes quadratic.
 const SMOOTH: f64 = 1e-3;
 
-/// Weight of the pull of a node, in samples.
+/// Weight of a node's pull, where a sample's is 1.
 const PULL: f64 = 0.16;
 
 /// Least r / R of a node.
@@ -41,14 +42,17 @@ const SWEEPS: usize = 6;
 /// R over a grid of alphas and mus.
 #[derive(Clone, Debug)]
 pub struct Albedos {
+    /// Roughnesses alpha, in (0, 1\].
     pub alphas: Vec<f64>,
+    /// Cosines mu, in \[0, 1\].
     pub mus: Vec<f64>,
-    /// R, alpha-major.
+    /// R at each pair of them, alpha-major.
     pub values: Vec<f64>,
 }
 
 impl Albedos {
-    /// Solves the slab for each of `alphas` in (0, 1\], R to 2e-4 of itself. `step` is told of each, from any of the working threads.
+    /// Solves the slab for each of `alphas` in (0, 1\]; R is known to a relative 2e-4. `step` is called after each
+    /// alpha, from any of the working threads.
     pub fn new(alphas: Vec<f64>, mus: Vec<f64>, step: impl Fn() + Sync) -> Self {
         let row = |&alpha: &f64| -> Vec<f64> {
             let solution = Transport::new(Slab::new(alpha), Resolution { modes: 1, refinement: 0.5, ridge: None });
@@ -59,13 +63,14 @@ impl Albedos {
         Self { alphas, mus, values }
     }
 
-    /// Where a table of `resolution` nodes a side is sampled, along either axis.
+    /// The places at which a table of `resolution` nodes a side is sampled, along either axis.
     pub fn samples(resolution: usize) -> Vec<f64> {
         centres((resolution - 1) * PER_CELL)
     }
 }
 
-/// r of each node, alpha-major, from R at the [`Albedos::samples`] and R at the nodes (anything where alpha = 0).
+/// r of each node, alpha-major, from R at the [`Albedos::samples`] and R at the nodes (any number where alpha = 0).
+/// Panics where their counts are not those of a table of `resolution` nodes a side.
 pub fn fit(resolution: usize, samples: &Albedos, at_nodes: &[f64]) -> Vec<f64> {
     let n = resolution;
     assert_eq!(samples.values.len(), ((n - 1) * PER_CELL).pow(2), "samples of a table of {n} nodes a side");
@@ -83,7 +88,7 @@ pub fn fit(resolution: usize, samples: &Albedos, at_nodes: &[f64]) -> Vec<f64> {
     r
 }
 
-/// The normal equations of the weighted least squares. A node meets its eight neighbours.
+/// The normal equations of the weighted least squares. They couple a node to its eight neighbours.
 struct Normal {
     n: usize,
     /// For each node, 3 x 3 coefficients around it.

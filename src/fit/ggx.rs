@@ -1,13 +1,14 @@
 //! From GGX microfacets to the specular base's table.
 //!
 //! At each node the transformed cosine is found that has the least L1 distance to the lobe over its albedo, the integral of
-//! |f_r mu_o / R - density| over the hemisphere: half of it is the share of light that falls elsewhere. Nodes of one mu are fitted from
-//! roughness 1 down, each from the one before and from a mirror's matrix. What is special:
+//! |f_r mu_o / R - density| over the hemisphere: half of it is the share of light that falls elsewhere. Nodes of one mu
+//! are fitted from roughness 1 down, each starting from the one before and from a mirror's matrix. Special cases:
 //!
-//! - The third row of the inverse matrix is (0, 0, 1), so that what was clipped at the horizon for one lobe is clipped for all.
+//! - The third row of the inverse matrix is (0, 0, 1), so that a polygon clipped at the horizon for one lobe is clipped
+//!   for all.
 //! - mu = 0 has the shapes of mu = [`GRAZING_MU`].
-//! - roughness = 0 is that of alpha = [`LEAST_ALPHA`](crate::physics::microfacet::LEAST_ALPHA).
-//! - albedo and Fresnel share are not those at the nodes but what interpolates best: see [`nodes`].
+//! - roughness = 0 is fitted at alpha = [`LEAST_ALPHA`](crate::physics::microfacet::LEAST_ALPHA).
+//! - The albedo and the Fresnel share are not those at the nodes but what interpolates best: see [`nodes`].
 
 use super::ggx_report::GgxReport;
 use super::nodes;
@@ -22,24 +23,24 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Nodes a side of the shipped table.
 pub const RESOLUTION: usize = 32;
 
-/// Nodes of the quadrature, so many that no sharp density hides between them.
+/// Numbers of nodes of the quadrature, enough that no sharp density hides between them.
 pub const QUADRATURE: [usize; 2] = [40, 40];
 
-/// Points a cell and axis at which albedos are met.
+/// Points per cell and axis that the interpolated albedos are fitted to.
 const PER_CELL: usize = 4;
 
 /// Sides of the first and the last simplex, in logarithms of the lobe's width and height.
 const STEP: f64 = 0.1;
 const TOLERANCE: f64 = 1e-7;
 
-/// The cosine at t = sqrt(1 - mu).
+/// The cosine mu at t = sqrt(1 - mu).
 pub fn cosine(t: f64) -> f64 {
     1.0 - t * t
 }
 
-/// Fits the table with `resolution` >= 2 nodes a side, the same on any number of threads.
+/// Fits the table with `resolution` >= 2 nodes a side; the result is the same on any number of threads.
 ///
-/// `progress` is told (done, all) steps, from any of the working threads.
+/// `progress` is called with the numbers of steps (done, all), from any of the working threads.
 pub fn ggx(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (GgxTable, GgxReport) {
     let points = (resolution - 1) * PER_CELL;
     let (done, all) = (AtomicUsize::new(0), resolution + points + GgxReport::STEPS);
@@ -69,20 +70,21 @@ pub fn ggx(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (GgxTab
 /// The fit of one node.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
+    /// The inverse matrix that was found.
     pub ltc: Ltc,
     /// R.
     pub albedo: f64,
-    /// L1 distance of lobe over albedo and density.
+    /// L1 distance between the lobe over its albedo and the density, in \[0, 2\].
     pub distance: f64,
 }
 
-/// For one `mu` > 0, the nodes of roughness, ascending.
+/// The fits for one `mu` > 0, at the nodes of roughness, ascending.
 fn column(resolution: usize, mu: f64) -> Vec<Fit> {
     let mut column: Vec<Fit> = Vec::with_capacity(resolution);
     let mut above: Option<(Ggx, Ltc)> = None;
     for i in (0..resolution).rev() {
         let ggx = Ggx::from_roughness(node(i, resolution));
-        // The one before, as much sharper as the surface is smoother; at first a round one.
+        // The one before, made sharper by as much as the surface is smoother; at first a round one.
         let start = above.map_or(Ltc { a: 1.0, b: 0.0, c: 1.0 }, |(rougher, Ltc { a, b, c })| {
             let sharper = rougher.alpha() / ggx.alpha();
             Ltc { a: a * sharper, b: b * sharper, c: c * sharper }
@@ -95,7 +97,7 @@ fn column(resolution: usize, mu: f64) -> Vec<Fit> {
     column
 }
 
-/// A sharp lobe's matrix: mirrored, twice as wide as the facets' slopes are.
+/// A sharp lobe's matrix: it points in the mirrored direction, and is twice as wide as the facets' slopes are.
 fn mirror(ggx: Ggx, mu: f64) -> Ltc {
     let c = 0.5 / ggx.alpha();
     Ltc { a: c * mu * mu, b: c * mu * sine(mu), c }
@@ -114,7 +116,7 @@ pub fn fit(ggx: Ggx, mu: f64, starts: [Ltc; 2]) -> Fit {
             let (x, distance) = simplex::minimum(|x| value(at(x)), [0.0], STEP, TOLERANCE);
             return Fit { ltc: at(x), albedo, distance };
         }
-        // b / a is the tangent of the direction; it moves in units of the lobe's length, 1 / a.
+        // b / a is the tangent of the lobe's direction; it moves in units of the lobe's length, 1 / a.
         let at = |[length, turn, width]: [f64; 3]| {
             let a = start.a * length.exp();
             Ltc { a, b: a * (start.b + turn) / start.a, c: start.c * width.exp() }
@@ -126,7 +128,7 @@ pub fn fit(ggx: Ggx, mu: f64, starts: [Ltc; 2]) -> Fit {
     if other.distance < one.distance { other } else { one }
 }
 
-/// R on a quadrature.
+/// R, integrated on a quadrature.
 pub fn albedo(nodes: &[Node]) -> f64 {
     nodes.iter().map(|node| node.weight * node.lobe).sum()
 }
@@ -136,8 +138,8 @@ pub fn distance(nodes: &[Node], albedo: f64, ltc: Ltc) -> f64 {
     nodes.iter().map(|node| node.weight * (node.lobe / albedo - ltc.density(node.wo)).abs()).sum()
 }
 
-/// R and the Fresnel share at nodes (roughness, t), such that their interpolation is nearest to what they are at [`PER_CELL`] points a
-/// cell and axis.
+/// R and the Fresnel share at nodes (roughness, t), such that their interpolation is nearest to what they are at
+/// [`PER_CELL`] points per cell and axis.
 fn albedos(resolution: usize, step: impl Fn() + Sync) -> [DMatrix<f64>; 2] {
     let at = centres((resolution - 1) * PER_CELL);
     let row = |&roughness: &f64| -> Vec<Reflected> {
@@ -152,7 +154,8 @@ fn albedos(resolution: usize, step: impl Fn() + Sync) -> [DMatrix<f64>; 2] {
         .map(|value| &fit * DMatrix::from_fn(at.len(), at.len(), |i, j| value(&rows[i][j])) * fit.transpose())
 }
 
-/// The nearest number of six decimal places, finer than the fit is known: what a table holds, its files hold too.
+/// The nearest number of six decimal places, finer than the fit is known: thus a table and its files hold the same
+/// numbers.
 fn places(value: f64) -> f64 {
     // Adding 0 turns -0 into 0.
     (value * 1e6).round() / 1e6 + 0.0

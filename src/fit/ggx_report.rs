@@ -14,22 +14,24 @@ const SPREAD: usize = 48;
 /// Points a side of the grid on which tables are compared: roughness k/7 but for 0, t = k/7, mu no less than [`GRAZING_MU`].
 const COMPARED: usize = 8;
 
-/// Errors of a fitted table. Those of shapes are L1 distances between lobe over albedo and density, at most 2.
+/// Errors of a fitted table. Those of shapes are L1 distances between the lobe over its albedo and the density, at most
+/// 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GgxReport {
     /// Nodes a side.
     pub resolution: usize,
-    /// At the nodes, of the fit.
+    /// Errors of the fit, at the nodes.
     pub nodes: Shapes,
-    /// Of what is looked up at the centres of 48 x 48 cells, which fall anywhere in the table's.
+    /// Errors of lookups at the centres of 48 x 48 cells, which do not line up with the table's.
     pub spread: Lookups,
-    /// Of what is looked up, weighted by R, on the grid on which tables are compared.
+    /// Mean error, weighted by R, of the shapes that are looked up on the grid on which tables are compared.
     pub compared: f64,
 }
 
 /// L1 distances of shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shapes {
+    /// Statistics in which all places count alike.
     pub errors: Errors,
     /// The mean weighted by R.
     pub weighted: f64,
@@ -38,6 +40,7 @@ pub struct Shapes {
 /// Errors of what is looked up between the nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lookups {
+    /// L1 distances of the shapes.
     pub shapes: Shapes,
     /// Relative error of R.
     pub albedo: Errors,
@@ -45,7 +48,7 @@ pub struct Lookups {
     pub fresnel: Errors,
 }
 
-/// What is looked up at one place.
+/// The errors of what is looked up at one place.
 struct Lookup {
     /// R.
     truth: f64,
@@ -55,7 +58,7 @@ struct Lookup {
 }
 
 impl GgxReport {
-    /// `step` is told of each roughness that is seen, [`GgxReport::STEPS`] in all, from any of the working threads.
+    /// `step` is called after each roughness, [`GgxReport::STEPS`] in all, from any of the working threads.
     pub(super) fn new<'a>(table: &GgxTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let nodes = Shapes::new(fits.map(|fit| (fit.albedo, fit.distance)).collect());
         let resolution = table.size()[0];
@@ -67,10 +70,10 @@ impl GgxReport {
         Self { resolution, nodes, spread, compared }
     }
 
-    /// How many roughnesses a report sees.
+    /// How many roughnesses a report looks at.
     pub(super) const STEPS: usize = SPREAD + COMPARED - 1;
 
-    /// What stands at the head of the table's .csv, a string a line: what it is, its axes, its errors, how it was made.
+    /// The head of the table's .csv, a string for each line: what the table is, its axes, its errors, how it was made.
     pub fn header(&self) -> Vec<String> {
         let about = format!(
             "GGX microfacets (Walter et al. 2007), shadowing correlated by height (Heitz 2014), as linearly transformed cosines.
@@ -102,7 +105,7 @@ Lookup: bilinear. albedo and fresnel are fitted for the interpolated value. u, v
 }
 
 impl Shapes {
-    /// Of pairs of R and distance.
+    /// From pairs of R and distance.
     fn new(pairs: Vec<(f64, f64)>) -> Self {
         let whole: f64 = pairs.iter().map(|(albedo, _)| albedo).sum();
         let weighted = pairs.iter().map(|(albedo, distance)| albedo * distance).sum::<f64>() / whole;
@@ -121,7 +124,7 @@ impl Lookups {
     }
 }
 
-/// What is looked up at all pairs of roughness and cosine, against the truth.
+/// The errors of what is looked up at all pairs of roughness and cosine.
 fn lookups(table: &GgxTable, roughnesses: &[f64], mus: &[f64], step: impl Fn() + Sync) -> Vec<Lookup> {
     let row = |&roughness: &f64| {
         let ggx = Ggx::from_roughness(roughness);

@@ -5,7 +5,8 @@ use crate::math::sine;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Azimuths over the half of the hemisphere on one side of the plane of incidence, in which lobes are mirrored.
+/// Number of azimuths over the half of the hemisphere on one side of the plane of incidence, about which lobes are
+/// symmetric.
 pub const AZIMUTHS: usize = 32;
 
 /// Nodes over the half of the upper hemisphere on one side of the plane of incidence.
@@ -22,7 +23,7 @@ pub struct Hemisphere {
 }
 
 impl Hemisphere {
-    /// From nodes and weights for integrals over the cosine in \[0, 1\].
+    /// The hemisphere on the given nodes and weights for integrals over the cosine in \[0, 1\].
     pub fn new(cosines: impl Iterator<Item = (f64, f64)>) -> Self {
         let azimuths = gauss_legendre(AZIMUTHS, 0.0, 1.0);
         let (mut nodes, mut weights) = (Vec::new(), Vec::new());

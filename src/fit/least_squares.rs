@@ -12,13 +12,14 @@ const MOST_STEPS: usize = 100;
 /// Which of the two parameters may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Free {
+    /// a and b.
     Both,
-    /// b is 0: the lobe of `wi` along the normal is round.
+    /// a alone, with b = 0: the lobe of `wi` along the normal is round.
     OnlyA,
 }
 
-/// Minimises the integral over the hemisphere of (shape - density)^2 by Levenberg and Marquardt's method over ln(a)
-/// and b <= 0, from `start`.
+/// The matrix that minimises the integral over the hemisphere of (shape - density)^2, by Levenberg and Marquardt's
+/// method over ln(a) and b <= 0, from `start`.
 ///
 /// `shape` is a lobe divided by its albedo, at the nodes.
 pub fn fit(shape: &[f64], hemisphere: &Hemisphere, start: SheenLtc, free: Free) -> SheenLtc {

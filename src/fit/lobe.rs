@@ -7,11 +7,14 @@ use glam::DVec3;
 
 /// A solved slab, and the quadrature on which its lobes are known.
 pub struct Lobes {
+    /// The solved slab.
     pub transport: Transport,
+    /// The quadrature, on the cosines of that solution.
     pub hemisphere: Hemisphere,
 }
 
 impl Lobes {
+    /// The lobes of a solved slab.
     pub fn new(transport: Transport) -> Self {
         let hemisphere = Hemisphere::new(transport.cosines());
         Self { transport, hemisphere }

@@ -1,14 +1,15 @@
 //! From lobes to the tables.
 //!
 //! The sheen's table. At each node the slab is solved, and the transformed cosine nearest to its lobe is found by least squares over
-//! the hemisphere ([`least_squares`]). Nodes of one mu are fitted from alpha = 1 down, each from the one before. What is special:
+//! the hemisphere ([`least_squares`]). Nodes of one mu are fitted from alpha = 1 down, each starting from the one
+//! before. Special cases:
 //!
-//! - mu = 0 is a limit that is reached steeply, and whose lobe is nothing like its neighbours': that row's a, b are those of
-//!   mu = [`GRAZING_MU`], as in the table that the paper published.
+//! - mu = 0 is a limit that is approached steeply, and its lobe is nothing like its neighbours': that row's a, b are
+//!   those of mu = [`GRAZING_MU`], as in the table that the paper published.
 //! - alpha = 0 has no lobe (sigma = 0) and serves interpolation only: its a, b are those of the next alpha.
-//! - r is not R at the nodes but what interpolates to R between them: see [`albedo`]. Below alpha = 0.25, along the edge where R rises from
-//!   nothing, it is 10 to 80% under R; at the corner of low alpha and grazing mu, where R falls from 0.9 to nothing within a cell, it
-//!   leaves R by a lot either way, and should.
+//! - r is not R at the nodes but what interpolates to R between them: see [`albedo`]. Below alpha = 0.25, along the
+//!   edge where R rises from nothing, it is 10 to 80% under R. At the corner of low alpha and grazing mu, where R falls
+//!   from 0.9 to nothing within a cell, it differs a lot from R in either direction, as it should.
 
 pub mod albedo;
 pub mod ggx;
@@ -36,7 +37,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The cosine at which a and b of the shipped table's row mu = 0 are fitted.
 pub const GRAZING_MU: f64 = 0.01;
 
-/// The same for a table of `resolution` nodes a side: not past the middle of the first cell.
+/// That cosine for a table of `resolution` nodes a side: [`GRAZING_MU`], but not past the middle of the first cell.
 pub fn grazing_mu(resolution: usize) -> f64 {
     GRAZING_MU.min(node(1, resolution) / 2.0)
 }
@@ -44,12 +45,13 @@ pub fn grazing_mu(resolution: usize) -> f64 {
 /// Nodes a side of the shipped table.
 pub const RESOLUTION: usize = 32;
 
-/// Nodes a side that a table may be asked to have.
+/// The numbers of nodes a side that a table may be asked to have.
 pub const RESOLUTIONS: RangeInclusive<usize> = 2..=128;
 
-/// Fits the sheen's table with `resolution` nodes a side, the same on any number of threads.
+/// Fits the sheen's table with `resolution` nodes a side; the result is the same on any number of threads.
 ///
-/// `progress` is told (done, all) steps, from any of the working threads.
+/// `progress` is called with the numbers of steps (done, all), from any of the working threads. Panics where
+/// `resolution` is not in [`RESOLUTIONS`].
 pub fn sheen(resolution: usize, progress: impl Fn(usize, usize) + Sync) -> (SheenTable, Report) {
     assert!(RESOLUTIONS.contains(&resolution), "a table has {RESOLUTIONS:?} nodes a side: {resolution}");
     let node = |k: usize| node(k, resolution);
@@ -94,7 +96,7 @@ struct Fit {
     distance: f64,
 }
 
-/// For one mu, the nodes with alpha > 0, ascending.
+/// The fits for one mu, at the nodes with alpha > 0, ascending.
 fn row(lobes: &[Lobes], mu: f64) -> Vec<Fit> {
     let mut start = SheenLtc { a: 1.0, b: 0.0 };
     let free = if mu == 1.0 { Free::OnlyA } else { Free::Both };
@@ -114,7 +116,8 @@ fn row(lobes: &[Lobes], mu: f64) -> Vec<Fit> {
     row
 }
 
-/// The nearest number of seven decimal digits, finer than anything here is known: what a table holds, its files hold too.
+/// The nearest number of seven decimal digits, finer than anything here is known: thus a table and its files hold the
+/// same numbers.
 fn seven_digits(value: f64) -> f64 {
     // Adding 0 turns -0 into 0.
     format!("{value:.6e}").parse::<f64>().expect("a formatted number is one") + 0.0

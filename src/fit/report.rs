@@ -11,13 +11,16 @@ pub const DIM: f64 = 1e-3;
 /// Statistics of relative errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
+    /// The arithmetic mean.
     pub mean: f64,
+    /// The middle one, the upper of two.
     pub median: f64,
+    /// The largest.
     pub max: f64,
 }
 
 impl Errors {
-    /// Of one or more errors.
+    /// Statistics of one or more errors; panics where there is none.
     pub fn new(mut errors: Vec<f64>) -> Self {
         assert!(!errors.is_empty(), "errors of nothing have no mean");
         errors.sort_by(f64::total_cmp);
@@ -33,14 +36,15 @@ pub struct Report {
     pub resolution: usize,
     /// Nodes with R > 1e-3.
     pub nodes: usize,
-    /// Relative L2 distance between lobe and transformed cosine at these.
+    /// Relative L2 distance between lobe and transformed cosine at those nodes.
     pub lobe: Errors,
     /// Its mean weighted by R.
     pub weighted: f64,
     /// Relative error of the interpolated r at the centres of the table's cells.
     pub centres: Errors,
-    /// The same at the centres of a grid of 48 x 48 cells, which fall anywhere in the table's. Were they at random, the
-    /// greatest would be a matter of the few next to alpha = mu = 0: see [`albedo`](super::albedo).
+    /// The same at the centres of a grid of 48 x 48 cells, which do not line up with the table's. They are not random:
+    /// if they were, the greatest error would depend on the few that happen to be next to alpha = mu = 0. See
+    /// [`albedo`](super::albedo).
     pub spread: Errors,
 }
 
@@ -48,7 +52,7 @@ pub struct Report {
 pub const SPREAD: usize = 48;
 
 impl Report {
-    /// `step` is told of each slab that is solved, [`Report::steps`] in all, from any of the working threads.
+    /// `step` is called after each slab that is solved, [`Report::steps`] in all, from any of the working threads.
     pub(super) fn new<'a>(table: &SheenTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let bright: Vec<&Fit> = fits.filter(|fit| fit.albedo > DIM).collect();
         let albedo: f64 = bright.iter().map(|fit| fit.albedo).sum();
@@ -64,7 +68,7 @@ impl Report {
         resolution - 1 + SPREAD
     }
 
-    /// What stands at the head of the table's .csv, a string a line: what it is, its axes, its errors, how it was made.
+    /// The head of the table's .csv, a string for each line: what the table is, its axes, its errors, how it was made.
     pub fn header(&self) -> Vec<String> {
         let option =
             if self.resolution == RESOLUTION { String::new() } else { format!(" --resolution {}", self.resolution) };

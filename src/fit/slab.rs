@@ -1,9 +1,9 @@
 //! From the slab's solution to its table for path tracers.
 //!
-//! What a node holds is not what is solved there but what interpolates best: in mu, linear interpolation is fitted by least squares to
-//! values at 4 x 4 points a cell. With P the pseudo-inverse of the matrix that interpolates from nodes to points,
-//! and G the values at pairs of points, that is P G P^T; it leaves half the error of values at the nodes. In alpha, values are those at
-//! the nodes.
+//! What a node holds is not the solution there but what interpolates best: in mu, linear interpolation is fitted by
+//! least squares to values at 4 x 4 points per cell. With P the pseudo-inverse of the matrix that interpolates from
+//! nodes to points, and G the values at pairs of points, the nodes hold P G P^T, which leaves half the error that the
+//! solution at the nodes would. In alpha, values are those at the nodes.
 
 use super::lobe::Lobes;
 use super::nodes;
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Points a cell and axis of mu.
+/// Points per cell and axis of mu.
 const PER_CELL: usize = 4;
 
 /// The modes that the table holds.
@@ -28,29 +28,30 @@ const MODES: usize = 3;
 /// How finely the nodes are solved: at 1 the table's errors are the same to 1%; at .5 the greatest are 4% larger.
 const NODES: Resolution = Resolution { modes: MODES, refinement: 0.7, ridge: None };
 
-/// Alphas of the report; each is in the middle of a cell.
+/// Number of alphas in the report; each is in the middle of a cell.
 const REPORT_ALPHAS: usize = 12;
 
-/// Cosines of the report for each alpha, in the middles of cells.
+/// Number of cosines in the report for each alpha, in the middles of cells.
 const REPORT_MUS: usize = 24;
 
 /// Least alpha of the report, below which the truth is known less well.
 const REPORT_LEAST_ALPHA: f64 = 1.0 / 31.0;
 
-/// How good a slab's table is, single scattering added: relative errors between its nodes where R > 1e-3 and alpha >= 1/31.
+/// How good the slab's table is, with single scattering added: relative errors between its nodes where R > 1e-3 and
+/// alpha >= 1/31.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlabReport {
     /// Relative L2 error of the lobe f_r mu_o over the hemisphere.
     pub lobe: Errors,
     /// Relative error of its integral against R.
     pub albedo: Errors,
-    /// Lobes that were compared.
+    /// Number of lobes that were compared.
     pub cells: usize,
 }
 
-/// Solves the slab at all alphas of the table, the same on any number of threads.
+/// Solves the slab at all alphas of the table; the result is the same on any number of threads.
 ///
-/// `progress` is told (done, all) steps, from any of the working threads.
+/// `progress` is called with the numbers of steps (done, all), from any of the working threads.
 pub fn slab(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, SlabReport) {
     let (done, all) = (AtomicUsize::new(0), SLAB_SIDE + REPORT_ALPHAS);
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
@@ -65,7 +66,7 @@ pub fn slab(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, SlabReport) {
     (table, report)
 }
 
-/// The table's `[v0, v1, v2]` at the pairs of mu nodes for one `alpha` in (0, 1\], not rounded.
+/// The table's `[v0, v1, v2]` at the pairs of mu nodes for one `alpha` in (0, 1\], not rounded to halves.
 pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
     let solution = Transport::new(Slab::new(alpha), NODES);
     let warp = SlabWarp::new(alpha);
@@ -82,12 +83,12 @@ pub fn layer(alpha: f64) -> Vec<[f64; 3]> {
     }
     let fit = nodes::nearest(&at, SLAB_SIDE);
     let fitted = values.map(|matrix| &fit * matrix * fit.transpose());
-    // Sums in another order differ in their last bit: of equal pairs, one is taken.
+    // Sums in another order differ in their last bit: of the two equal values of a pair, one is taken for both.
     let pairs = (0..SLAB_SIDE).flat_map(|i| (0..SLAB_SIDE).map(move |j| (i.max(j), i.min(j))));
     pairs.map(|pair| std::array::from_fn(|m| fitted[m][pair])).collect()
 }
 
-/// v0, v1, v2 as the solution has them.
+/// v0, v1, v2 from the solution.
 fn stored(solution: &Transport, mu_i: f64, mu_o: f64) -> [f64; 3] {
     let mut modes = [0.0; MODES];
     solution.multiple_modes(mu_i, mu_o, &mut modes);
@@ -99,7 +100,8 @@ fn stored(solution: &Transport, mu_i: f64, mu_o: f64) -> [f64; 3] {
 }
 
 fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
-    // From the first alpha in question on, spread over the cells up to the last; half a cell aside from the nodes.
+    // From the first cell whose middle is not below the least alpha to the last one, evenly spread; in the middles of
+    // cells.
     let first = (0..SLAB_SIDE).find(|k| slab_alpha(*k as f64 + 0.5) >= REPORT_LEAST_ALPHA).unwrap_or_default();
     let alphas = (0..REPORT_ALPHAS).map(|k| first + k * (SLAB_SIDE - 2 - first) / (REPORT_ALPHAS - 1));
     let alphas: Vec<f64> = alphas.map(|k| slab_alpha(k as f64 + 0.5)).collect();
@@ -126,7 +128,7 @@ fn errors(table: &SlabTable, alpha: f64) -> Vec<[f64; 2]> {
     mus.filter(|mu| truth.albedo(*mu) > DIM)
         .map(|mu| {
             let (wi, r, shape) = (DVec3::new(sine(mu), 0.0, mu), truth.albedo(mu), lobes.shape(mu));
-            // Over R, as the shape.
+            // Divided by R, as the shape is.
             let found = |wo: DVec3| {
                 let [one, other] = [mu, wo.z].map(Elevation::from_cosine);
                 let modes = slice.lookup(mu, wo.z);

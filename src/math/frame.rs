@@ -12,7 +12,7 @@ pub struct AzimuthFrame {
 }
 
 impl AzimuthFrame {
-    /// The frame of `w`, of a length near 1.
+    /// The frame of `w`, whose length is near 1.
     #[inline]
     pub fn of(w: DVec3) -> Self {
         let across = (w.x * w.x + w.y * w.y).sqrt();

@@ -30,7 +30,8 @@ pub fn cube_root(x: f64) -> f64 {
     halley(x, near_cube_root(x))
 }
 
-/// The cube root of `x` in \[0, 1\], to a relative 1e-4, continuous: for what can't wait for [`cube_root`]. Below 1e-300 it is 0.
+/// The cube root of `x` in \[0, 1\], to a relative 1e-4, continuous: for uses that can't wait for [`cube_root`]. Below
+/// 1e-300 it is 0.
 ///
 /// A third of the exponent is a guess good to 6%; a step of Halley's iteration cubes that error.
 #[inline]
@@ -40,7 +41,7 @@ pub fn near_cube_root(x: f64) -> f64 {
     if x < 1e-300 { 0.0 } else { halley(x, f64::from_bits(x.to_bits() / 3 + BIAS)) }
 }
 
-/// A step to the cube root of `x` from a guess; 0 stays.
+/// One step of Halley's iteration for the cube root of `x`, from a guess `root`; a guess of 0 stays 0.
 #[inline]
 fn halley(x: f64, root: f64) -> f64 {
     let cube = root * root * root;

@@ -22,7 +22,8 @@ pub fn gauss_legendre(n: usize, from: f64, to: f64) -> Vec<(f64, f64)> {
     (0..n).map(node).collect()
 }
 
-/// The guess is good to a few percent of the nodes' spacing, so that four quadratic steps reach round-off; one to spare.
+/// The guess is good to a few percent of the nodes' spacing, so that four quadratic steps reach round-off; one more is
+/// to spare.
 const NEWTON_STEPS: usize = 5;
 
 /// `P_n(x)` and its derivative, |x| < 1, by the three-term recurrence.

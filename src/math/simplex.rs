@@ -24,7 +24,7 @@ pub fn minimum<const N: usize>(
         }
         let center: [f64; N] =
             std::array::from_fn(|k| simplex[..N].iter().map(|(point, _)| point[k]).sum::<f64>() / N as f64);
-        // Along the line from the worst corner through the middle of the others, which is at 0.
+        // On the line from the worst corner through the middle of the others; that middle is at t = 0.
         let along = |t: f64| corner(std::array::from_fn(|k| center[k] + t * (center[k] - worst.0[k])));
         let reflected = along(1.0);
         let next = if reflected.1 < best.1 {

@@ -8,14 +8,15 @@ use glam::DVec3;
 /// The sheen term of Burley 2012, "Physically Based Shading at Disney" (SIGGRAPH course): f_r = (1 - cos theta_d)^5, Schlick's
 /// weight at the difference angle theta_d between `wi` and the half vector. It has no roughness, and is not divided by pi.
 ///
-/// Reciprocal. Albedos are at most 0.0885, at the horizon, and the integrals of what is evaluated to 1e-3 of themselves. Weights are at most
-/// 0.5.
+/// Reciprocal. Albedos are at most 0.0885, at the horizon, and equal the integrals of [`Bsdf::evaluate`] to a relative
+/// 1e-3. Weights are at most 0.5.
 #[derive(Clone, Debug)]
 pub struct Burley {
     directions: Directions,
 }
 
 impl Burley {
+    /// The model, which has no parameters; takes some milliseconds.
     pub fn new() -> Self {
         Self { directions: Directions::new(&SchlickWeight) }
     }

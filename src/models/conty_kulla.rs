@@ -9,13 +9,14 @@ use std::f64::consts::TAU;
 /// The fit's parameters a to e, for r = 0 (section 3 of the source).
 const SMOOTH: [f64; 5] = [25.3245, 3.32435, 0.16801, -1.27393, -4.85967];
 
-/// For r = 1.
+/// The parameters for r = 1.
 const ROUGH: [f64; 5] = [21.5473, 3.82987, 0.19823, -1.97760, -4.32054];
 
 /// How the light's side fades out towards grazing light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Terminator {
-    /// By the shadowing that goes with the distribution: reciprocal. What Zeltner, Burley and Chiang compare with.
+    /// By the shadowing that goes with the distribution: reciprocal. This is what Zeltner, Burley and Chiang compare
+    /// with.
     Physical,
     /// Softened for artists (section 4 of the source): Lambda of `wo` to the power 1 + 2 (1 - mu_o)^8, while that of `wi` stays. Not
     /// reciprocal.
@@ -31,12 +32,13 @@ pub enum Terminator {
 /// f_r  = D G / (4 mu_i mu_o)                               eq. 1
 /// ```
 ///
-/// where a to e go from those for r = 1 to those for r = 0 with (1 - r)^2. Towards the horizon Lambda mu should tend to a limit; of the fit it
-/// is largest at a cosine between 4e-5 and 9e-5, then falls to 0, and f_r would be infinite. Here it keeps its largest value.
+/// where a to e go from those for r = 1 to those for r = 0 with (1 - r)^2. Towards the horizon Lambda mu should tend to
+/// a limit. The fit's is largest at a cosine between 4e-5 and 9e-5 and then falls to 0, which would make f_r infinite.
+/// Here it keeps its largest value from there on.
 ///
 /// Reciprocal with [`Terminator::Physical`]. The fit creates light where alpha is small: albedos pass 1 below alpha = 0.07 (soft: 0.045) at
-/// grazing angles, up to 1.34 (soft: 1.15). They are the integrals of what is evaluated to 5e-3 of themselves, mostly to 1e-3. Weights are at
-/// most 6.
+/// grazing angles, up to 1.34 (soft: 1.15). They equal the integrals of [`Bsdf::evaluate`] to a relative 5e-3, mostly
+/// 1e-3. Weights are at most 6.
 #[derive(Clone, Debug)]
 pub struct ContyKulla {
     lobe: FittedFibres,
@@ -44,7 +46,8 @@ pub struct ContyKulla {
 }
 
 impl ContyKulla {
-    /// Of r = `alpha` in \[0, 1\], no less than [`LEAST_ALPHA`]. Towards 0 half vectors gather at the horizon.
+    /// The sheen of r = `alpha` in \[0, 1\]; below [`LEAST_ALPHA`] it is the sheen of that. Towards 0 the half vectors
+    /// gather at the horizon.
     pub fn new(alpha: f64, terminator: Terminator) -> Self {
         check_alpha(alpha);
         let lobe = FittedFibres::new(alpha.max(LEAST_ALPHA), terminator);
@@ -88,7 +91,8 @@ impl FittedFibres {
     fn new(r: f64, terminator: Terminator) -> Self {
         let smooth = (1.0 - r) * (1.0 - r);
         let fit: [f64; 5] = std::array::from_fn(|k| smooth * SMOOTH[k] + (1.0 - smooth) * ROUGH[k]);
-        // 1 + x L'(x) = 0, without d x, which is 1e-4 there: with u = b x^c, a c u = (1 + u)^2, of whose roots the lesser is meant.
+        // The solution of 1 + x L'(x) = 0 without the term d x, which is 1e-4 there: with u = b x^c, the lesser root of
+        // a c u = (1 + u)^2.
         let [a, b, c, ..] = fit;
         let half = 0.5 * a * c - 1.0;
         let u = half - (half * half - 1.0).sqrt();
@@ -112,7 +116,7 @@ impl Lobe for FittedFibres {
         if self.terminator == Terminator::Soft {
             there = there.powf(1.0 + 2.0 * (1.0 - mu_o).powi(8));
         }
-        // Not infinite: mu_i may be 0.
+        // Infinity would give NaN where mu_i is 0.
         1.0 / (4.0 * (here + mu_i * (1.0 + there.min(f64::MAX))))
     }
 

@@ -1,8 +1,10 @@
-//! Directions sampled from a tabulated lobe, and its albedo: for lobes in closed form whose integrals have none.
+//! Directions sampled from a tabulated lobe, and its albedo: for lobes that have a closed form where their integrals
+//! have none.
 //!
 //! For each of a few cosines of `wi` a row holds the lobe's shares in cells of the upper hemisphere, [`ELEVATIONS`] equal steps of the cube
 //! root of the cosine of `wo` times [`AZIMUTHS`] equal steps of the azimuth from `wi`, both its signs together. In a cell the density over
-//! (cube root, azimuth) is constant. Between two rows it is linear, and so are its sums, which are inverted without drawing a row.
+//! (cube root, azimuth) is constant. Between two rows it is linear, and so are its sums, which are inverted without
+//! choosing one of the two rows at random.
 
 use super::{Sample, check_uniforms, cosine};
 use crate::math::frame::AzimuthFrame;
@@ -11,8 +13,8 @@ use crate::table::{cell, node};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Least alpha of the sheens of prior work, smaller ones are taken for it: narrower lobes would slip between the cells that they are sampled
-/// from. The fitted table's fuzziest is 1/31.
+/// Least alpha of the sheens of prior work; smaller ones are replaced by it, because narrower lobes would slip between
+/// the cells from which they are sampled. The least alpha above 0 in the fitted table is 1/31.
 pub const LEAST_ALPHA: f64 = 0.03;
 
 /// Rows, at equal steps of [`place_from_mu`]. The albedo is held there too.
@@ -26,10 +28,12 @@ const AZIMUTHS: usize = 16;
 
 const CELLS: usize = ELEVATIONS * AZIMUTHS;
 
-/// Least share of a cell, over the mean share: its edges and middle do not see all that is in it.
+/// Least share of a cell, relative to the mean share: the lobe is evaluated on a cell's edges and in its middle, and
+/// may be larger elsewhere in it.
 const LEAST: f64 = 0.02;
 
-/// f_r(wi, wo) times the cosine of `wo`, as a product: for `wi` above the horizon or on it, `wo` above. For each `wi` above 0 somewhere.
+/// f_r(wi, wo) times the cosine of `wo`, as a product, for `wi` above the horizon or on it and `wo` above it. For each
+/// `wi` it is above 0 somewhere.
 pub trait Lobe {
     /// What depends on the cosines alone.
     fn of_cosines(&self, mu_i: f64, mu_o: f64) -> f64;
@@ -42,7 +46,7 @@ pub trait Lobe {
         self.of_cosines(wi.z.min(1.0), wo.z.min(1.0)) * self.of_directions(wi, wo)
     }
 
-    /// The same, and 0 elsewhere: as [`super::Bsdf::evaluate`].
+    /// The value, and 0 for other directions: as [`super::Bsdf::evaluate`].
     fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64 {
         let (mu_i, mu_o) = (cosine(wi), cosine(wo));
         if mu_i < 0.0 || mu_o <= 0.0 { 0.0 } else { self.value(wi, wo) }
@@ -54,7 +58,7 @@ pub trait Lobe {
 pub struct Directions {
     /// The sum of the shares before each cell, elevation-major, and 1 after the last; row by row.
     cumulated: Vec<f64>,
-    /// Logarithms.
+    /// Logarithms of the rows' albedos.
     log_albedos: [f64; ROWS],
 }
 
@@ -131,7 +135,8 @@ impl Directions {
     }
 }
 
-/// A lobe's integral over the elevations of each cell, by Simpson's rule, at the edges of the azimuths, times the width of a cell along these.
+/// For each step in elevation, the lobe's integral over that step by Simpson's rule, taken at the edges between
+/// azimuths, times a cell's width in azimuth (both its signs together).
 fn strips(lobe: &impl Lobe, wi: DVec3, turns: &[(f64, f64); AZIMUTHS + 1]) -> [[f64; AZIMUTHS + 1]; ELEVATIONS] {
     let at = |k: usize| {
         if k == 0 {
@@ -153,13 +158,13 @@ fn strips(lobe: &impl Lobe, wi: DVec3, turns: &[(f64, f64); AZIMUTHS + 1]) -> [[
     })
 }
 
-/// The integral over the azimuths of a strip. Shares are by trapezoids, which give steep cells enough, but go wrong where the lobe has a kink
-/// at the azimuth pi.
+/// The integral of a strip over the azimuths. The trapezoids from which the cells' shares are made give steep cells
+/// enough, but would be wrong here where the lobe has a kink at the azimuth pi.
 fn simpson(strip: &[f64; AZIMUTHS + 1]) -> f64 {
     (0..AZIMUTHS).step_by(2).map(|k| (strip[k] + 4.0 * strip[k + 1] + strip[k + 2]) / 3.0).sum()
 }
 
-/// Appends the sums of shares before each cell of a row to others, scaled to 1 at its end.
+/// Appends a row to `cumulated`: the sum of the shares before each of its cells, scaled so that the row ends at 1.
 fn cumulate(strips: &[[f64; AZIMUTHS + 1]; ELEVATIONS], cumulated: &mut Vec<f64>) {
     let shares = strips.iter().flat_map(|strip| strip.windows(2).map(|edges| 0.5 * (edges[0] + edges[1])));
     let least = LEAST * shares.clone().sum::<f64>() / CELLS as f64;
@@ -169,7 +174,7 @@ fn cumulate(strips: &[[f64; AZIMUTHS + 1]; ELEVATIONS], cumulated: &mut Vec<f64>
         cumulated.push(sum);
         sum += share.max(least) / whole;
     }
-    // What is drawn is below 1.
+    // Uniform numbers are below 1.
     cumulated.push(1.0);
 }
 
@@ -187,7 +192,7 @@ fn last_at_most(count: usize, target: f64, value: impl Fn(usize) -> f64) -> usiz
     low
 }
 
-/// Where a cosine in \[0, 1\] is along the rows: p with mu = (p (2 - p))^4, dense at both ends.
+/// Where a cosine in \[0, 1\] lies along the rows: p with mu = (p (2 - p))^4, dense at both ends.
 fn place_from_mu(mu: f64) -> f64 {
     let root = mu.sqrt().sqrt();
     root / (1.0 + (1.0 - root).sqrt())
@@ -197,12 +202,12 @@ fn mu_from_place(place: f64) -> f64 {
     (place * (2.0 - place)).powi(4)
 }
 
-/// What is between two rows.
+/// A place between two rows.
 #[derive(Clone, Copy)]
 struct Row {
     /// The row below.
     first: usize,
-    /// The next one's share.
+    /// The next row's share.
     share: f64,
 }
 

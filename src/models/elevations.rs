@@ -1,12 +1,14 @@
 //! Elevations of a lobe, sampled from a tabulated density.
 //!
 //! For each of a few warped cosines of `wi` a row holds the lobe's density p over the warped root y of the cosine of `wo`
-//! ([`SlabWarp::root`]). In y it ends at the horizon neither at 0 nor at infinity for grazing `wi`, where lobes don't vanish, and as a
-//! straight line for others. Between two rows the density is linear, and so is its integral, which is inverted without drawing a row.
+//! ([`SlabWarp::root`]). Towards the horizon, a density over y is finite and above 0 for grazing `wi`, whose lobes
+//! don't vanish there, and falls off as a straight line for others. Between two rows the density is linear, and so is
+//! its integral, which is inverted without choosing one of the two rows at random.
 //!
-//! A row is linear between nodes in y only in the cell at the horizon: beyond, sqrt(t) p is linear in the place t = y^(2/3), so that
-//! what is drawn is the place itself, which the table's lookup waits for, without a root. With x running from 0 to 1 over a cell
-//! (x = y / y_1 in the first, x = (NODES - 1) t - k in the others) and t_1 the first cell's end,
+//! Only in the cell at the horizon is a row linear in y between nodes: beyond, sqrt(t) p is linear in the place
+//! t = y^(2/3), so that the place itself, which the table's lookup waits for, is sampled without a root. With x running
+//! from 0 to 1 over a cell (x = y / y_1 in the first, x = (NODES - 1) t - k in the others) and t_1 the first cell's
+//! end,
 //!
 //! ```text
 //! p = v(x) / sqrt(max(t, t_1)), v linear,   p dy = v dx / (NODES - 1) times 1 in the first cell, 3/2 in the others,
@@ -22,27 +24,29 @@ const NODES: usize = 63;
 /// Rows, at the places k / (n - 1).
 const ROWS: usize = 32;
 
-/// Least density over y, over its mean: in the far tails of fuzz, lobes between nodes are many times what these say.
+/// Least density over y, relative to its mean: in the far tails of fuzz, a lobe may be many times larger between nodes
+/// than at them.
 const LEAST: f64 = 1e-3;
 
-/// Parts of \[0, 1) for which a row remembers where to search.
+/// Number of equal parts of \[0, 1) for each of which a row remembers where to begin a search.
 const GUIDES: usize = 64;
 
 /// Cells between nodes.
 const CELLS: f64 = (NODES - 1) as f64;
 
-/// Densities of the elevation of `wo` given that of `wi`, of one alpha.
+/// Densities of the elevation of `wo` given that of `wi`, for one alpha.
 #[derive(Clone, Debug)]
 pub struct Elevations {
     /// v at the nodes, row by row; each row's integral of p over y is 1.
     values: Vec<f64>,
     /// The integral from 0 to each node.
     cumulated: Vec<f64>,
-    /// For each row, the last node whose integral is at most k / GUIDES: where the search for a number beyond that begins.
+    /// For each row and each k, the last node whose integral is at most k / GUIDES: where the search for a larger
+    /// number begins.
     guides: Vec<[u8; GUIDES]>,
 }
 
-/// An elevation that is drawn.
+/// A sampled elevation.
 pub struct Drawn {
     /// See [`SlabWarp::place`].
     pub place: f64,
@@ -53,7 +57,7 @@ pub struct Drawn {
 }
 
 impl Elevations {
-    /// From a density over y given the roots of `wi` and `wo`, above 0 somewhere and of any scale.
+    /// From a density over y given the roots of `wi` and `wo`; it is above 0 somewhere, and its scale does not matter.
     pub fn new(density: impl Fn(f64, f64) -> f64) -> Self {
         let (mut values, mut cumulated, mut guides) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..ROWS {
@@ -95,7 +99,7 @@ impl Elevations {
             k += 1;
         }
         let [low, high] = [k, k + 1].map(|k| row.between(&self.values, k));
-        // Of width (low x + (high - low) x^2 / 2) = rest, the root that does not cancel.
+        // The solution of width (low x + (high - low) x^2 / 2) = rest, in the form that does not cancel.
         let rest = (uniform - row.between(&self.cumulated, k)) * if k == 0 { 1.0 / width(0) } else { 1.0 / width(1) };
         let below = low + (low * low + 2.0 * (high - low) * rest).max(0.0).sqrt();
         let x = (2.0 * rest / below).clamp(0.0, 1.0);
@@ -110,24 +114,24 @@ impl Elevations {
     }
 }
 
-/// What is between two rows.
+/// A place between two rows.
 #[derive(Clone, Copy)]
 struct Row {
     /// The row below.
     first: usize,
-    /// The next one's share.
+    /// The next row's share.
     share: f64,
 }
 
 impl Row {
-    /// Where a place is; one a little past 1 is taken for 1, so that densities stay above 0.
+    /// The rows around a place; a place slightly past 1 is taken for 1, so that densities stay above 0.
     #[inline]
     fn at(place: f64) -> Self {
         let (first, share) = cell(place.min(1.0), ROWS);
         Self { first, share }
     }
 
-    /// A value at node `k`, of a table that holds them row by row.
+    /// The value at node `k`, from a table that holds values row by row.
     #[inline]
     fn between(self, table: &[f64], k: usize) -> f64 {
         let at = self.first * NODES + k;
@@ -155,7 +159,7 @@ fn integrals(values: &[f64; NODES]) -> [f64; NODES] {
     sums
 }
 
-/// The last node but one, or an earlier one, whose integral is at most `value`.
+/// The last node whose integral is at most `value`, the very last excepted.
 fn last_at_most(sums: &[f64], value: f64) -> usize {
     sums.partition_point(|sum| *sum <= value).clamp(1, NODES - 1) - 1
 }

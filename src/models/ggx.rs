@@ -7,7 +7,8 @@ use crate::physics::microfacet::{self, Reflected};
 use crate::table::{GgxLobe, GgxTable, Ltc, cell, node};
 use glam::DVec3;
 
-/// Nodes along the cube root of mu, near enough at mu = alpha where R dips: linear between them, shares are off by 1e-3 at most.
+/// Nodes along the cube root of mu, close enough at mu = alpha, where R dips: interpolated linearly, shares are off by
+/// at most 1e-3.
 const SHARES: usize = 129;
 
 /// Schlick's approximation of Fresnel's reflectance, of one colour channel: f0 head on, f90 at grazing angles.
@@ -18,10 +19,10 @@ pub struct Schlick {
 }
 
 impl Schlick {
-    /// Nothing is taken from the light: a perfect mirror.
+    /// A perfect mirror, which takes nothing from the light.
     pub const MIRROR: Self = Self { f0: 1.0, f90: 1.0 };
 
-    /// From `f0` and `f90` in \[0, 1\].
+    /// From `f0` and `f90` in \[0, 1\]; panics outside that range.
     pub fn new(f0: f64, f90: f64) -> Self {
         assert!([f0, f90].iter().all(|f| (0.0..=1.0).contains(f)), "f0 and f90 are in [0, 1]: {f0}, {f90}");
         Self { f0, f90 }
@@ -33,28 +34,31 @@ impl Schlick {
         [0, 1, 2].map(|channel| Self::new(f0[channel], f90[channel]))
     }
 
-    /// The reflectance where `cosine` is that of the light to the facet (Schlick 1994).
+    /// The reflectance at `cosine`, that of the light to the facet's normal (Schlick 1994).
     fn at(&self, cosine: f64) -> f64 {
         self.f0 + (self.f90 - self.f0) * (1.0 - cosine).max(0.0).powi(5)
     }
 
-    /// What light that facets reflect more than once adds to a lobe of albedo R: a factor 1 + f0 (1/R - 1) (Turquin 2019).
+    /// The factor by which light that facets reflect more than once raises a lobe of albedo R: 1 + f0 (1/R - 1)
+    /// (Turquin 2019).
     fn gain(&self, albedo: f64) -> f64 {
         1.0 + self.f0 * (1.0 / albedo - 1.0)
     }
 
     /// The share of light that comes back from facets of albedo R and Fresnel share S: f0 (R - S) + f90 S, times the gain.
     ///
-    /// At most R / R = 1, as S <= R; 1 for f0 = f90 = 1.
+    /// At most R / R = 1, because S <= R; exactly 1 for f0 = f90 = 1.
     pub fn albedo(&self, albedo: f64, fresnel: f64) -> f64 {
         (self.f0 * (albedo - fresnel) + self.f90 * fresnel) * self.gain(albedo)
     }
 }
 
-/// GGX microfacets, height-correlated, multiple reflection made up for: [`microfacet`] has the formulas.
+/// GGX microfacets with height-correlated shadowing, compensated for multiple reflection: [`microfacet`] has the
+/// formulas.
 ///
-/// Reciprocal but for the gain, which is that of `wi`. Samples are mirrored at visible normals: those that would go below the
-/// horizon, a few in a hundred, are none, so that densities integrate to less than 1.
+/// Reciprocal but for the compensation, which depends on `wi` alone. Samples are mirrored at visible normals. Those
+/// that would go below the horizon, a few in a hundred, are returned as `None`, so that densities integrate to less
+/// than 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ggx {
     facets: microfacet::Ggx,
@@ -64,7 +68,7 @@ pub struct Ggx {
 }
 
 impl Ggx {
-    /// Of the user's `roughness` in \[0, 1\]: takes some milliseconds.
+    /// The specular base of the user's `roughness` in \[0, 1\]; takes some milliseconds. Panics outside that range.
     pub fn new(roughness: f64, schlick: Schlick) -> Self {
         check_roughness(roughness);
         let facets = microfacet::Ggx::from_roughness(roughness);
@@ -72,7 +76,7 @@ impl Ggx {
         Self { facets, schlick, shares }
     }
 
-    /// [`Bsdf::evaluate`] of each channel with reflectances of its own in place of this one's.
+    /// [`Bsdf::evaluate`] for each colour channel, with the reflectances `schlick` in place of this model's own.
     pub fn evaluate_channels(&self, wi: DVec3, wo: DVec3, schlick: &[Schlick; 3]) -> DVec3 {
         let (mu_i, mu_o) = (cosine(wi), cosine(wo));
         if mu_i < 0.0 || mu_o <= 0.0 {
@@ -83,7 +87,7 @@ impl Ggx {
         DVec3::from(schlick.each_ref().map(|schlick| facets * schlick.at(cosine) * schlick.gain(albedo)))
     }
 
-    /// [`Bsdf::albedo`] likewise.
+    /// [`Bsdf::albedo`] for each colour channel, with the reflectances `schlick` in place of this model's own.
     pub fn albedo_channels(&self, mu: f64, schlick: &[Schlick; 3]) -> DVec3 {
         let [albedo, fresnel] = self.shares_at(mu);
         DVec3::from(schlick.each_ref().map(|schlick| schlick.albedo(albedo, fresnel)))
@@ -136,7 +140,7 @@ impl Bsdf for Ggx {
 }
 
 /// The specular base as a transformed cosine, with the table's numbers: what the shaders integrate over polygons. Fresnel's reflectance
-/// is the lobe's mean. Samples have the lobe's density: their weight is the albedo.
+/// is averaged over the lobe. Samples have the lobe's density: their weight is the albedo.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtcGgx {
     table: GgxTable,
@@ -145,7 +149,7 @@ pub struct LtcGgx {
 }
 
 impl LtcGgx {
-    /// Of the user's `roughness` in \[0, 1\].
+    /// The specular base of the user's `roughness` in \[0, 1\]; panics outside that range.
     pub fn new(table: &GgxTable, roughness: f64, schlick: Schlick) -> Self {
         check_roughness(roughness);
         Self { table: table.clone(), roughness, schlick }
@@ -157,7 +161,7 @@ impl LtcGgx {
         (ltc, self.schlick.albedo(albedo, fresnel))
     }
 
-    /// Albedo and density at `wo`; none where one direction is below the horizon.
+    /// The albedo and the density at `wo`; `None` where one of the directions is below the horizon.
     fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(f64, f64)> {
         let (mu_i, mu_o) = (cosine(wi), cosine(wo));
         (mu_i >= 0.0 && mu_o > 0.0).then(|| {

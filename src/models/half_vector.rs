@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// What models of microfacets know of the half vector h of two directions above the horizon or on it.
+/// What microfacet models need of the half vector h of two directions above the horizon or on it.
 pub struct HalfVector {
     /// Square of its cosine to the normal.
     pub cosine_square: f64,
@@ -13,7 +13,7 @@ pub struct HalfVector {
 }
 
 impl HalfVector {
-    /// Of unit vectors. Opposite ones, both on the horizon, have the normal.
+    /// The half vector of two unit vectors. For opposite ones, both on the horizon, it is the normal.
     #[inline]
     pub fn of(wi: DVec3, wo: DVec3) -> Self {
         let sum = wi + wo;

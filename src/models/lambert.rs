@@ -6,7 +6,7 @@ use crate::math::warp::cosine_hemisphere;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The same radiance in all directions, of all light: the base's colour multiplies it.
+/// Scatters all light, with the same radiance in all directions: the base's colour multiplies it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lambert;
 

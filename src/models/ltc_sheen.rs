@@ -8,8 +8,9 @@ use glam::DVec3;
 
 /// The sheen as a linearly transformed cosine, with the table's numbers at one alpha (Zeltner, Burley, Chiang 2022, eq. 1).
 ///
-/// What the shaders integrate over polygons, so that a path tracer with it shows the same picture. Samples have the lobe's density: their weight is
-/// the albedo r. Not reciprocal, by as much as the fit is off (9% of a lobe in the mean).
+/// This is what the shaders integrate over polygons, so that a path tracer that uses it shows the same picture. Samples
+/// have the lobe's density: their weight is the albedo r. It misses reciprocity by as much as the fit is off (9% of a
+/// lobe on average).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtcSheen {
     /// `[a, b, r]` at the nodes of mu.

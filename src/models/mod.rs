@@ -1,29 +1,32 @@
 //! How surfaces scatter light, for path tracers: evaluate, sample, density, albedo.
 //!
-//! | model | what it is | at its price |
+//! | model | what it is | what to know |
 //! |---|---|---|
 //! | [`LtcSheen`] | the transformed cosine that renders in real time: a fit of the slab's lobe | sampled perfectly; reciprocal only nearly |
 //! | [`SlabSheen`] | the slab itself: exact single scattering, the rest from a table to 0.2% of a lobe | reciprocal; weights to 1.7 R |
-//! | [`SheenWalk`] | the slab path by path, a [`Layer`]: no density, but nothing tabulated | some ten scatterings a path, at low alpha a thousand |
+//! | [`SheenWalk`] | the slab path by path, a [`Layer`]: no density, but nothing tabulated | about ten scatterings a path, a thousand at low alpha |
 //! | [`LtcGgx`] | the transformed cosine of the specular base | sampled perfectly; reciprocal only nearly |
-//! | [`Ggx`] | the specular base itself: GGX microfacets, multiple reflection made up for | weights to its albedo over R |
+//! | [`Ggx`] | the specular base itself: GGX microfacets, compensated for multiple reflection | weights to its albedo over R |
 //! | [`Lambert`] | the diffuse base | |
 //!
-//! Sheens of prior work, to compare with, each by its paper's formula; sampled from a table that takes some milliseconds to make.
+//! Sheens of prior work, to compare with, each by its paper's formula; each is sampled from a table that takes some
+//! milliseconds to make.
 //!
-//! | model | what it is | at its price |
+//! | model | what it is | what to know |
 //! |---|---|---|
 //! | [`Burley`] | Schlick's weight at the difference angle (Disney 2012) | no roughness; reciprocal |
 //! | [`NeubeltPettineo`] | inverted Gaussian of half vectors (The Order: 1886, 2013) | reciprocal; a ground that shines at all angles |
 //! | [`ContyKulla`] | power of the half vector's sine, shadowing fitted (Imageworks 2017) | reciprocal with [`Terminator::Physical`]; creates light where alpha is small |
 //! | [`Patry`] | single scattering of SGGX fibres (Ghost of Tsushima 2020) | not reciprocal |
 //!
-//! Sheens have no colour: `C_sheen` multiplies what they give. The specular base is made for each colour channel. Models stand in a frame whose z is the normal, with `wi` and `wo`
-//! anywhere on the sphere: below the horizon there is nothing. One is made for each roughness, and shared by any number of threads.
+//! Sheens have no colour: `C_sheen` multiplies what they give. The specular base is made for each colour channel.
+//! Models live in a frame whose z is the normal; `wi` and `wo` may be anywhere on the sphere, but below the horizon
+//! nothing is scattered. A model is made for one roughness, and may be shared by any number of threads.
 //!
 //! # Example
 //!
-//! What a path tracer does where a path meets the surface: sample the next direction, and weigh light that it looks for itself.
+//! What a path tracer does where a path meets the surface: it samples the next direction, and weighs light from a
+//! direction that it has found by sampling the lights.
 //!
 //! ```
 //! use glam::DVec3;
@@ -80,21 +83,22 @@ use glam::DVec3;
 
 /// How a surface scatters light, without colour.
 ///
-/// Directions are unit to [`UNIT_TOLERANCE`], point away from the surface, and have the normal as z: others, NaN among them, are a
-/// mistake in the caller and panic with their value, as do uniform numbers and cosines outside their ranges.
+/// Directions are unit to [`UNIT_TOLERANCE`], point away from the surface, and have the normal as z. Others, NaN among
+/// them, are mistakes of the caller and panic with their value, as do uniform numbers and cosines outside their ranges.
 pub trait Bsdf {
-    /// f_r(wi, wo) times the cosine of `wo`, per steradian: times radiance from `wo`, integrated over `wo`, it is radiance to `wi`.
-    /// 0 where one of them is below the horizon, or `wo` on it.
+    /// f_r(wi, wo) times the cosine of `wo`, per steradian: multiplied by the radiance from `wo` and integrated over
+    /// `wo`, it gives the radiance towards `wi`. 0 where one of them is below the horizon, or `wo` is on it.
     fn evaluate(&self, wi: DVec3, wo: DVec3) -> f64;
 
-    /// A direction from two uniform numbers in \[0, 1); none where nothing is scattered: then the path ends.
+    /// A direction from two uniform numbers in \[0, 1); `None` where nothing is scattered: then the path ends.
     fn sample(&self, wi: DVec3, uniforms: [f64; 2]) -> Option<Sample>;
 
-    /// Density per steradian with which [`Self::sample`] finds `wo`; 0 where `wi` or `wo` is below the horizon, or `wo` on it.
+    /// Density per steradian with which [`Self::sample`] finds `wo`; 0 where `wi` or `wo` is below the horizon, or `wo`
+    /// is on it.
     fn pdf(&self, wi: DVec3, wo: DVec3) -> f64;
 
-    /// The share of light of cosine `mu` in \[0, 1\] that is scattered: the integral of [`Self::evaluate`] over `wo`. In \[0, 1\], but for
-    /// [`ContyKulla`], which creates light.
+    /// The share of light of cosine `mu` in \[0, 1\] that is scattered: the integral of [`Self::evaluate`] over `wo`.
+    /// In \[0, 1\], except for [`ContyKulla`], which creates light.
     fn albedo(&self, mu: f64) -> f64;
 }
 
@@ -103,13 +107,13 @@ pub trait Bsdf {
 pub struct Sample {
     /// Unit, above the horizon.
     pub wo: DVec3,
-    /// [`Bsdf::evaluate`] over `pdf`.
+    /// [`Bsdf::evaluate`] divided by `pdf`.
     pub weight: f64,
     /// Density of `wo` per steradian.
     pub pdf: f64,
 }
 
-/// How far the square of a direction's length may be from 1: directions may come from `f32`.
+/// How far the square of a direction's length may be from 1, since directions may come from `f32`.
 pub const UNIT_TOLERANCE: f64 = 1e-5;
 
 /// The cosine of a direction to the normal, at most 1.

@@ -19,8 +19,8 @@ const AMPLITUDE: f64 = 4.0;
 /// D(h) = (1 + 4 exp(-cot^2(theta_h) / alpha^2) / sin^4(theta_h)) / (pi (1 + 4 alpha^2)),   f_r = D(h) / (4 (mu_i + mu_o - mu_i mu_o))
 /// ```
 ///
-/// Reciprocal. Albedos are at most 0.868, for alpha = 0.33 at the horizon, and the integrals of what is evaluated to 1e-3 of themselves. Weights
-/// are at most 3.
+/// Reciprocal. Albedos are at most 0.868, for alpha = 0.33 at the horizon, and equal the integrals of
+/// [`Bsdf::evaluate`] to a relative 1e-3. Weights are at most 3.
 #[derive(Clone, Debug)]
 pub struct NeubeltPettineo {
     lobe: InvertedGaussian,
@@ -28,7 +28,8 @@ pub struct NeubeltPettineo {
 }
 
 impl NeubeltPettineo {
-    /// Of the paper's `alpha` in \[0, 1\], no less than [`LEAST_ALPHA`]. Towards 0 the peak vanishes into the horizon, and D to 1 / pi.
+    /// The cloth of the paper's `alpha` in \[0, 1\]; below [`LEAST_ALPHA`] it is the cloth of that. Towards 0 the peak
+    /// vanishes into the horizon, and D tends to 1 / pi.
     pub fn new(alpha: f64) -> Self {
         check_alpha(alpha);
         let lobe = InvertedGaussian { alpha_square: alpha.max(LEAST_ALPHA).powi(2) };
@@ -67,7 +68,8 @@ impl Lobe for InvertedGaussian {
     /// D(h).
     fn of_directions(&self, wi: DVec3, wo: DVec3) -> f64 {
         let HalfVector { cosine_square, sine_square, .. } = HalfVector::of(wi, wo);
-        // Towards the normal the exponential falls faster than any power: 0 where it is small, before the sine is 0.
+        // Towards the normal the exponential falls faster than any power of the sine: the peak is taken for 0 before
+        // the sine is 0.
         let exponent = cosine_square / (sine_square * self.alpha_square);
         let peak = if exponent < 500.0 { (-exponent).exp() / (sine_square * sine_square) } else { 0.0 };
         (1.0 + AMPLITUDE * peak) / (PI * (1.0 + AMPLITUDE * self.alpha_square))

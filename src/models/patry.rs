@@ -10,20 +10,20 @@ use glam::DVec3;
 /// Patry 2020, "Samurai Shading in Ghost of Tsushima" (SIGGRAPH course): asperity scattering with the phase function of SGGX microflakes, here
 /// with fibres along the normal.
 ///
-/// Light that a layer of optical depth 1 scatters once, where the medium takes as much of it from all directions (Koenderink and Pont 2003,
-/// "The secret of velvety skin"):
+/// The light that a layer of optical depth 1 scatters once, where the medium's extinction is the same in all directions
+/// (Koenderink and Pont 2003, "The secret of velvety skin"):
 ///
 /// ```text
 /// f_r = p(wi, wo) (1 - exp(-(mu_i + mu_o) / (mu_i mu_o))) / (mu_i + mu_o),   p(wi, wo) = D(h) / (4 extinction(wi))
 /// ```
 ///
-/// That is how the supplement of Zeltner, Burley and Chiang 2022 compares with it, which says that the product in the exponent is Koenderink's
-/// and Pont's, other than in the talk's slides. The talk's base layer and approximations for real time are left out. The medium of
-/// [`super::SlabSheen`] takes more light across the fibres than along them: this one does not, so that it is f_r times extinction(wi) that is
-/// reciprocal, not f_r.
+/// This is the form with which the supplement of Zeltner, Burley and Chiang 2022 compares. It says that the product in
+/// the exponent is Koenderink and Pont's, and differs from the talk's slides. The talk's base layer and approximations
+/// for real time are left out. In the medium of [`super::SlabSheen`] extinction is larger across the fibres than along
+/// them. In this one it is not, so that it is f_r times extinction(wi) that is reciprocal, not f_r.
 ///
-/// Albedos are at most 0.5, at the horizon, and the integrals of what is evaluated to 3e-3 of themselves. Of light from one `wo`, at most 0.55
-/// comes back. Weights are at most 5.
+/// Albedos are at most 0.5, at the horizon, and equal the integrals of [`Bsdf::evaluate`] to a relative 3e-3. Of the
+/// light from one `wo`, at most 0.55 comes back. Weights are at most 5.
 #[derive(Clone, Debug)]
 pub struct Patry {
     layer: Layer,
@@ -31,8 +31,8 @@ pub struct Patry {
 }
 
 impl Patry {
-    /// Of the slab's `alpha` in \[0, 1\], whose square is the fibres' cross-section; no less than [`LEAST_ALPHA`]. Towards 0 fibres keep the
-    /// elevation of light: nothing comes back.
+    /// The fuzz of the slab's `alpha` in \[0, 1\], whose square is the fibres' cross-section; below [`LEAST_ALPHA`] it
+    /// is the fuzz of that. Towards 0 the fibres do not change the elevation of light: nothing comes back.
     pub fn new(alpha: f64) -> Self {
         check_alpha(alpha);
         let layer = Layer { medium: Sggx::new(sigma_from_alpha(alpha.max(LEAST_ALPHA))) };
@@ -63,7 +63,7 @@ impl Bsdf for Patry {
     }
 }
 
-/// The lobe times extinction(wi): what is smooth at the normal.
+/// The lobe times extinction(wi), which is smooth at the normal.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     medium: Sggx,
@@ -72,7 +72,7 @@ struct Layer {
 impl Lobe for Layer {
     fn of_cosines(&self, mu_i: f64, mu_o: f64) -> f64 {
         let sum = mu_i + mu_o;
-        // Infinite where wi is on the horizon: it meets the layer for certain.
+        // The exponent is infinite where wi is on the horizon: its light is certain to meet the layer.
         one_minus_exp(sum / (mu_i * mu_o)) * (mu_o / sum)
     }
 

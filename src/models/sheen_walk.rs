@@ -6,20 +6,21 @@ use crate::physics::slab::Slab;
 use glam::DVec3;
 use rand::Rng;
 
-/// A flat layer of thickness 1 through which light is followed scattering by scattering. No density is known of what comes out, so that a
-/// layer is no [`Bsdf`](super::Bsdf): but of each scattering one is, and by it lights can be looked for.
+/// A flat layer of thickness 1 through which light is followed scattering by scattering. The density of what comes out
+/// is not known, so that a layer is no [`Bsdf`](super::Bsdf); but that of each single scattering is, so that lights can
+/// be sampled from there.
 ///
-/// z is the layer's normal; depths run from 0 at the top to 1 at the bottom; directions are unit. All is symmetric: paths may be
-/// followed from the view to the light.
+/// z is the layer's normal; depths run from 0 at the top to 1 at the bottom; directions are unit. Everything is
+/// symmetric: paths may be followed from the view to the light.
 pub trait Layer {
     /// Where light from a depth, going `along`, scatters next.
     fn flight(&self, depth: f64, along: DVec3, rng: &mut impl Rng) -> Flight;
 
-    /// Where light that enters by the top, going `along`, scatters first, of that which scatters at all, and what share that is; none where
-    /// none is.
+    /// Of the light that enters by the top, going `along`, and is scattered at all: the depth at which it is scattered
+    /// first, sampled, and its share of all light. `None` where nothing is scattered.
     fn first_scattering(&self, along: DVec3, rng: &mut impl Rng) -> Option<(f64, f64)>;
 
-    /// Where light that goes `along` goes once it is scattered; nothing is absorbed.
+    /// The direction, sampled, in which light that goes `along` goes on after a scattering; nothing is absorbed.
     fn scatter(&self, along: DVec3, rng: &mut impl Rng) -> DVec3;
 
     /// The density of [`Self::scatter`] at `out`, per steradian.
@@ -48,14 +49,14 @@ pub struct SheenWalk {
 }
 
 impl SheenWalk {
-    /// The slab of roughness `alpha` in \[0, 1\]; empty below [`EMPTY_BELOW_ALPHA`].
+    /// The slab of roughness `alpha` in \[0, 1\], which is empty below [`EMPTY_BELOW_ALPHA`].
     pub fn new(alpha: f64) -> Self {
         check_alpha(alpha);
         Self { slab: (alpha >= EMPTY_BELOW_ALPHA).then(|| Slab::new(alpha)) }
     }
 
-    /// Follows light that enters from `wi`, above the horizon, until it leaves: the direction, below the horizon where it leaves by the bottom, and
-    /// how often it was scattered.
+    /// Follows light that enters from `wi`, above the horizon, until it leaves. Gives the direction in which it leaves,
+    /// below the horizon where that is by the bottom, and how often it was scattered.
     pub fn walk(&self, wi: DVec3, rng: &mut impl Rng) -> (DVec3, u32) {
         let (mut depth, mut along, mut scatterings) = (0.0, -wi, 0);
         while let Flight::Scattered(next) = self.flight(depth, along, rng) {
@@ -77,7 +78,7 @@ impl Layer for SheenWalk {
                 }
             }
         };
-        // A broken number leaves too.
+        // NaN leaves too.
         if next > 0.0 && next < 1.0 {
             Flight::Scattered(next)
         } else if along.z > 0.0 {
@@ -96,7 +97,7 @@ impl Layer for SheenWalk {
     }
 
     fn scatter(&self, along: DVec3, rng: &mut impl Rng) -> DVec3 {
-        // Rounding would pile up over a thousand scatterings.
+        // Without this, rounding would pile up over a thousand scatterings.
         self.slab.map_or(along, |slab| slab.medium().sample(-along, rng).normalize())
     }
 

@@ -11,33 +11,35 @@ use crate::table::{SLAB_SIDE, SlabModes, SlabSlice, SlabTable, SlabWarp};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Alpha below which the slab is taken to be empty: only what is within 1e-4 of the horizon would notice.
+/// Alpha below which the slab is taken to be empty: only directions within 1e-4 of the horizon would show a difference.
 pub const EMPTY_BELOW_ALPHA: f64 = 1e-3;
 
-/// Share of the lobe's first azimuthal mode that the azimuth's density is given: more, and its peak is too sharp.
+/// Share of the lobe's first azimuthal mode that the azimuth's density is given: with more of it the peak is too sharp.
 const FIRST_MODE_SHARE: f64 = 0.75;
 
-/// Places in the table's cell at the horizon at which the albedo is held, at squares of equal steps: it goes with mu, the power 3/2 of
-/// the place. Even.
+/// Number, even, of places in the table's cell at the horizon at which the albedo is held, at squares of equal steps:
+/// it goes with mu, which is the place to the power 3/2.
 const FIRST_ALBEDOS: usize = 8;
 
-/// Places at which it is held; in further cells at the ends, where the table has kinks, and in the middle. Quadratic in between.
+/// Number of all places at which the albedo is held; in further cells these are the ends, where the table has kinks,
+/// and the middle. It is quadratic in between.
 const ALBEDOS: usize = FIRST_ALBEDOS + 2 * (SLAB_SIDE - 2) + 1;
 
-/// The table's cell at the horizon is split so often, in ratios of 4, for the albedo's quadrature.
+/// How often the table's cell at the horizon is split, in ratios of 4, for the albedo's quadrature.
 const HORIZON_SPLITS: i32 = 6;
 
-/// Root that stands for the horizon's.
+/// The root that stands for the horizon's, which is 0.
 const LEAST_ROOT: f64 = 1e-100;
 
 /// The sheen of the slab of fibres: single scattering exactly, multiple scattering from a [`SlabTable`].
 ///
 /// Against the solved slab a lobe is off by 0.2% in the mean and by less than 1% (relative L2, alpha >= 1/31 and R > 1e-3; at mu under
-/// 1e-5 R is up to 3% too low), and reciprocal to round-off. Below alpha = .0094 it is what [`SlabTable::slice`] says of it.
+/// 1e-5 R is up to 3% too low), and reciprocal to round-off. Below alpha = .0094 it is as far off as
+/// [`SlabTable::slice`] says.
 ///
-/// A lobe is sampled by elevation, from a table that is made of it, then by azimuth, from a wrapped Cauchy density. Weights are at most
-/// 1.3, and at most 1.7 R for alpha >= 1/31 and R > 1e-3; their standard deviation is under 0.2 R there. Albedos are the integrals of
-/// what is evaluated, to 5e-4 of themselves where R > 1e-3.
+/// A lobe is sampled by elevation, from a table made for it, then by azimuth, from a wrapped Cauchy density. Weights
+/// are at most 1.3, and at most 1.7 R for alpha >= 1/31 and R > 1e-3; their standard deviation is under 0.2 R there.
+/// Albedos equal the integrals of [`Bsdf::evaluate`] to a relative 5e-4 where R > 1e-3.
 #[derive(Clone, Debug)]
 pub struct SlabSheen {
     /// None where the slab is empty.
@@ -49,12 +51,12 @@ struct Lobe {
     slab: Slab,
     slice: SlabSlice,
     elevations: Elevations,
-    /// Logarithms.
+    /// Logarithms of the albedos.
     log_albedos: [f64; ALBEDOS],
 }
 
 impl SlabSheen {
-    /// The sheen of roughness `alpha` in \[0, 1\]; takes a millisecond. Empty below [`EMPTY_BELOW_ALPHA`].
+    /// The sheen of roughness `alpha` in \[0, 1\], which is empty below [`EMPTY_BELOW_ALPHA`]; takes a millisecond.
     pub fn new(table: &SlabTable, alpha: f64) -> Self {
         check_alpha(alpha);
         let lobe = (alpha >= EMPTY_BELOW_ALPHA).then(|| Lobe::new(Slab::new(alpha), table.slice(alpha)));
@@ -83,7 +85,8 @@ impl Bsdf for SlabSheen {
         check_uniforms(uniforms);
         let mu_i = cosine(wi);
         let lobe = self.lobe.as_ref().filter(|_| mu_i >= 0.0)?;
-        // What waits for nothing comes first: it is done while the rest, a long chain of roots and divisions, waits.
+        // What depends on nothing else comes first: it is computed while the rest, a long chain of roots and divisions,
+        // waits.
         let frame = AzimuthFrame::of(wi);
         let tangent = WrappedCauchy::tangent(uniforms[1]);
         let warp = lobe.slice.warp();
@@ -153,7 +156,7 @@ fn albedo_cell(k: usize) -> f64 {
     if k < first { (k / first).powi(2) } else { 1.0 + (k - first) / 2.0 }
 }
 
-/// Logarithms of the albedos, integrals over y of a lobe's density, given the roots of `wi` and `wo`.
+/// Logarithms of the albedos: integrals over y of a lobe's `density`, which takes the roots of `wi` and `wo`.
 fn log_albedos(density: impl Fn(f64, f64) -> f64) -> [f64; ALBEDOS] {
     // Gauss nodes between the places at which the table has kinks; in the first cell, where lobes of grazing light end
     // steeply, between ever nearer ones.
@@ -192,11 +195,11 @@ impl Place {
     }
 }
 
-/// Two elevations and what is known of light between them.
+/// Two elevations, and what is known of how light scatters between them.
 struct Meeting {
     one: Place,
     other: Place,
-    /// Sines' product.
+    /// The product of the sines.
     across: f64,
     /// Modes 0 and 1 of the kernel.
     kernel: [f64; 2],
@@ -213,7 +216,7 @@ impl Meeting {
         Self { one, other, across: one.elevation.s * other.elevation.s, kernel, modes: slice.at([one.at, other.at]) }
     }
 
-    /// What kernels are multiplied by to give f_r times the cosine of `other`.
+    /// The factor by which kernels are multiplied to give f_r times the cosine of `other`.
     #[inline]
     fn scale(&self, slab: &Slab) -> f64 {
         slab.reflected_once(self.one.elevation, self.other.elevation) * self.other.elevation.mu
@@ -231,28 +234,28 @@ impl Meeting {
         self.scale(slab) * (slab.medium().kernel(wi, wo) + self.kernel[0] * over)
     }
 
-    /// The density in which azimuths are sampled.
+    /// The density with which azimuths are sampled.
     #[inline]
     fn azimuth(&self) -> WrappedCauchy {
         let [mean, first] = self.kernel;
         let whole = mean * self.modes.growth;
-        // Of the angle from wi, where the modes' is the one from straight on.
+        // The density is over the angle from wi, the modes are over the angle from straight on: hence the minus sign.
         let first = -FIRST_MODE_SHARE * (first + mean * self.modes.first * self.across);
         WrappedCauchy { mean: whole, first: first.clamp(-0.9 * whole, 0.9 * whole) }
     }
 
-    /// Cosine of the azimuth from `wi`; anything where it has none.
+    /// Cosine of the azimuth from `wi`; an arbitrary one where there is no azimuth.
     #[inline]
     fn cos_phi(&self, wi: DVec3, wo: DVec3) -> f64 {
         if self.across > 0.0 { (-across_cosine(wi, wo) / self.across).clamp(-1.0, 1.0) } else { 0.0 }
     }
 }
 
-/// The density (1 - g^2) / (2 pi (1 + g^2 - 2 g cos(phi))), whose first mode is g of its mean; |g| < 1.
+/// The density (1 - g^2) / (2 pi (1 + g^2 - 2 g cos(phi))), whose first mode is g times its mean; |g| < 1.
 struct WrappedCauchy {
-    /// Of any scale above 0.
+    /// The mean, of any scale above 0.
     mean: f64,
-    /// g of that.
+    /// The first mode, g times the mean.
     first: f64,
 }
 
@@ -263,13 +266,13 @@ impl WrappedCauchy {
         (mean - first) * (mean + first) / (2.0 * PI * (mean * mean + first * first - 2.0 * mean * first * cos_phi))
     }
 
-    /// Of a uniform angle, the half's tangent.
+    /// The tangent of half of a uniform angle, from a uniform number.
     #[inline]
     fn tangent(uniform: f64) -> f64 {
         (PI * (uniform - 0.5)).tan()
     }
 
-    /// The angle that one with such a tangent becomes: it is scaled by (1 - g) / (1 + g).
+    /// The sampled angle, from the tangent of half of a uniform one: that tangent is scaled by (1 - g) / (1 + g).
     #[inline]
     fn turn(&self, tangent: f64) -> Turn {
         let (more, less) = (self.mean + self.first, self.mean - self.first);
@@ -287,7 +290,7 @@ impl WrappedCauchy {
 struct Turn {
     cos: f64,
     sin: f64,
-    /// One over its density.
+    /// One over the angle's density.
     inverse_pdf: f64,
 }
 

@@ -1,8 +1,8 @@
 //! A rough mirror: microfacets of the GGX distribution that reflect all light, each once.
 //!
 //! W: Walter, Marschner, Li, Torrance 2007; H: Heitz 2014; V: Heitz 2018 (visible normals). Isotropic, masking and shadowing correlated by
-//! height, F = 1. With root(mu) = sqrt(mu^2 + alpha^2 (1 - mu^2)), thus 1 + 2 Lambda = root / mu (H eq. 72), all is free of the
-//! quotients that fail at grazing angles:
+//! height, F = 1. With root(mu) = sqrt(mu^2 + alpha^2 (1 - mu^2)), and thus 1 + 2 Lambda = root / mu (H eq. 72), the
+//! formulas contain none of the quotients that fail at grazing angles:
 //!
 //! ```text
 //! D(m)       = alpha^2 / (pi (1 - (1 - alpha^2) m_z^2)^2)                                  W eq. 33
@@ -11,7 +11,7 @@
 //! pdf(wo)    = D G1 / (4 mu_i)               = D / (2 (mu_i + root_i))                     V, with G1 = 1 / (1 + Lambda_i)
 //! ```
 //!
-//! What facets reflect downwards is lost, and what they would reflect once more: that is the share 1 - R.
+//! Light that facets reflect downwards, or would reflect a second time, is lost: it is the share 1 - R.
 
 use crate::math::quadrature::gauss_legendre;
 use crate::math::{check_cosine, sine, sine_square};
@@ -36,9 +36,10 @@ pub struct Reflected {
     pub fresnel: f64,
 }
 
-/// A direction of light, with what it counts in integrals over `wo` on both sides of the plane of incidence.
+/// A direction of light, with its weight in integrals over `wo`: it stands for both sides of the plane of incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
+    /// The direction, unit and above the horizon.
     pub wo: DVec3,
     /// dot(wi, h), h the half vector.
     pub cosine: f64,
@@ -49,17 +50,18 @@ pub struct Node {
 }
 
 impl Ggx {
-    /// Of `alpha` in \[[`LEAST_ALPHA`], 1\].
+    /// Microfacets of `alpha` in \[[`LEAST_ALPHA`], 1\]; panics outside that range.
     pub fn new(alpha: f64) -> Self {
         assert!((LEAST_ALPHA..=1.0).contains(&alpha), "alpha of microfacets is in [{LEAST_ALPHA}, 1]: {alpha}");
         Self { alpha }
     }
 
-    /// Of the user's `roughness` in \[0, 1\]: alpha is its square, and no less than [`LEAST_ALPHA`].
+    /// Microfacets of the user's `roughness` in \[0, 1\]: alpha is its square, and no less than [`LEAST_ALPHA`].
     pub fn from_roughness(roughness: f64) -> Self {
         Self::new((roughness * roughness).max(LEAST_ALPHA))
     }
 
+    /// The roughness alpha, in \[[`LEAST_ALPHA`], 1\].
     pub fn alpha(&self) -> f64 {
         self.alpha
     }
@@ -96,7 +98,8 @@ impl Ggx {
 
     /// `wi` mirrored at a visible normal, from two uniform numbers in \[0, 1); it may lie below the horizon (V, section 3).
     ///
-    /// Stretched by alpha, the facets are a half-sphere, whose part that `wi` sees is a disc of which a part is covered.
+    /// Stretched by alpha, the facets form a hemisphere. What `wi` sees of it is a disc, one half of which is squeezed
+    /// into half an ellipse.
     pub fn sample(&self, wi: DVec3, [one, other]: [f64; 2]) -> DVec3 {
         let seen = DVec3::new(self.alpha * wi.x, self.alpha * wi.y, wi.z).normalize();
         let across = DVec3::new(-seen.y, seen.x, 0.0).try_normalize().unwrap_or(DVec3::X);
@@ -121,11 +124,12 @@ impl Ggx {
 
     /// Nodes over the directions above the horizon for `wi` = (sqrt(1 - mu^2), 0, mu), fine where the lobe is, for any alpha.
     ///
-    /// The half vector's angles theta, phi are walked. `wo` is above the horizon for theta < (atan2(s cos phi, mu) + pi / 2) / 2,
-    /// s = sqrt(1 - mu^2): the domain's edge is smooth in phi, but for a turn at pi / 2 of width mu. With tan theta = alpha tan chi the
-    /// distribution is even in chi: D cos theta sin theta dtheta dphi = sin(2 chi) dchi dphi / 2 pi. `counts` are those of Gauss nodes in
-    /// chi, gathered at the horizon, and in phi on either side of pi / 2, gathered there and in the plane of incidence, to which
-    /// grazing lobes are pressed.
+    /// The nodes run over the half vector's angles theta and phi. `wo` is above the horizon for
+    /// theta < (atan2(s cos phi, mu) + pi / 2) / 2, s = sqrt(1 - mu^2): the domain's edge is smooth in phi, except for
+    /// a turn of width mu at pi / 2. With tan theta = alpha tan chi the distribution is even in chi:
+    /// D cos theta sin theta dtheta dphi = sin(2 chi) dchi dphi / 2 pi. `counts` are the numbers of Gauss nodes in chi,
+    /// which are densest at the horizon, and in phi on either side of pi / 2, which are densest there and in the plane
+    /// of incidence, against which grazing lobes are pressed.
     pub fn quadrature(&self, mu: f64, counts: [usize; 2]) -> Vec<Node> {
         check_cosine(mu);
         let (s, wi) = (sine(mu), DVec3::new(sine(mu), 0.0, mu));

@@ -55,7 +55,7 @@ impl Sggx {
     /// Scaled so that the flakes' area projected along w is the extinction: its integral over the sphere is not 1.
     pub fn flake_density(&self, m_z: f64) -> f64 {
         let sigma_square = self.sigma * self.sigma;
-        // m^T S^-1 m = (sigma^2 + (1 - sigma^2) m_z^2) / sigma^2 up to the order of its terms; no cancellation.
+        // m^T S^-1 m = (sigma^2 + (1 - sigma^2) m_z^2) / sigma^2, with its terms in an order in which nothing cancels.
         let form = sigma_square + (1.0 - self.sigma) * (1.0 + self.sigma) * m_z * m_z;
         self.sigma * sigma_square / (PI * form * form)
     }
@@ -63,7 +63,8 @@ impl Sggx {
     /// The scattering kernel extinction x phase function, D(wh) / 4: symmetric in its arguments, per length and steradian.
     ///
     /// `back` points back to where the light came from, `out` along where it goes, both unit; wh is their half vector.
-    /// 1 / (4 pi sigma) where `out` = -`back` (straight on), the limit along directions that keep their elevation.
+    /// Where `out` = -`back` (straight on) it is 1 / (4 pi sigma), the limit along directions that keep their
+    /// elevation.
     #[inline]
     pub fn kernel(&self, back: DVec3, out: DVec3) -> f64 {
         let sum = back + out;
@@ -71,7 +72,8 @@ impl Sggx {
         if half_square == 0.0 {
             return self.straight_on;
         }
-        // [`Self::flake_density`] / 4 at wh_z^2 = sum_z^2 / (2 half_square), multiplied by that: of one division.
+        // [`Self::flake_density`] / 4 at wh_z^2 = sum_z^2 / (2 half_square), expanded by half_square so that one
+        // division is enough.
         let ratio = half_square / (half_square + self.contrast * sum.z * sum.z);
         self.straight_on * ratio * ratio
     }
@@ -83,10 +85,11 @@ impl Sggx {
 
     /// A direction distributed as [`Self::phase`] of `back`, a unit vector.
     ///
-    /// A flake is hit where the light sees it, so that normals are those of an ellipsoid at points uniform in its
-    /// silhouette (section 4.3 of the source). S^(1/2) takes the unit sphere's normals to the ellipsoid's and a silhouette to a
-    /// silhouette, and normals of the sphere seen from t are t plus a uniform point on it: no case of small sigma or
-    /// grazing light needs care.
+    /// Light hits flakes in proportion to how much of them it sees, so that the normals it hits are those of an
+    /// ellipsoid at points that are uniform in its silhouette (section 4.3 of the source). S^(1/2) maps the unit
+    /// sphere's normals to the ellipsoid's, and its silhouette to the ellipsoid's; and the sphere's normals, as seen
+    /// from t, are distributed as t plus a uniform point on the sphere. Neither small sigma nor grazing light needs a
+    /// case of its own.
     pub fn sample(&self, back: DVec3, rng: &mut impl Rng) -> DVec3 {
         self.sample_seen(back, self.stretched(back).normalize(), rng)
     }
@@ -96,7 +99,7 @@ impl Sggx {
         loop {
             let normal = self.stretched(seen + warp::unit_sphere(rng));
             let length_square = normal.length_squared();
-            // Zero where the point lies opposite of `seen` to the last bit.
+            // Zero where the point lies opposite `seen` to the last bit.
             if length_square > 0.0 {
                 return normal * (2.0 * back.dot(normal) / length_square) - back;
             }

@@ -1,4 +1,5 @@
-//! The layer of fibres along its normal z, of thickness 1 if nothing is said, with what is known of it in closed form.
+//! The layer of fibres along its normal z, of thickness 1 unless stated otherwise, with what is known of it in closed
+//! form.
 
 use super::modes::Elevation;
 use super::sggx::Sggx;
@@ -22,17 +23,19 @@ impl Slab {
         Self { medium: Sggx::new(sigma_from_alpha(alpha)), thickness: 1.0 }
     }
 
-    /// The same fibres in a slab of another thickness, in units of the mean free path across them, in \[1e-12, 1e6\]. The
-    /// tables are of 1.
+    /// The same fibres in a slab of another thickness, in units of the mean free path across them, in \[1e-12, 1e6\].
+    /// The tables are made for a thickness of 1.
     pub fn with_thickness(self, thickness: f64) -> Self {
         assert!((1e-12..=1e6).contains(&thickness), "a thickness is in [1e-12, 1e6]: {thickness}");
         Self { thickness, ..self }
     }
 
+    /// The slab's thickness, in units of the mean free path across the fibres.
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
 
+    /// The fibres that fill the slab.
     #[inline]
     pub fn medium(&self) -> &Sggx {
         &self.medium
@@ -57,8 +60,9 @@ impl Slab {
     /// Single scattering's part of the reflected lobe f_r(wi, wo) mu_o, per steradian; exact.
     ///
     /// `wi` and `wo` are unit, in the upper hemisphere (z >= 0), pointing away. At depth t, a share exp(-A_i t) of the light
-    /// arrives, K dt / mu_i of it scatters into wo, and exp(-A_o t) of that leaves, with A = extinction / mu; integrated over t
-    /// in \[0, 1\] (for thickness 1), and written so that either cosine may be 0. Both 0 (no light enters, none leaves) gives 0.
+    /// arrives, K dt / mu_i of it scatters into wo, and exp(-A_o t) of that leaves, with A = extinction / mu. This is
+    /// integrated over t in \[0, 1\] (for thickness 1), in a form in which either cosine may be 0. If both are 0 (no
+    /// light enters, none leaves), so is it.
     pub fn single_scattering(&self, wi: DVec3, wo: DVec3) -> f64 {
         let (mu_i, mu_o) = (wi.z, wo.z);
         check_cosine(mu_i);
@@ -84,13 +88,13 @@ impl Slab {
         self.medium.kernel(wi, wo) * self.transmitted_once(one, other) * other.mu
     }
 
-    /// What the kernel is multiplied by to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i + A_o) mu_i mu_o), where
-    /// the A of the denominator are per thickness. Infinite where both cosines are 0.
+    /// The factor by which the kernel is multiplied to give single scattering's f_r: (1 - exp(-A_i - A_o)) / ((A_i +
+    /// A_o) mu_i mu_o), where the A in the denominator are those of thickness 1. Infinite where both cosines are 0.
     #[inline]
     pub fn reflected_once(&self, one: Elevation, other: Elevation) -> f64 {
         let (here, there) = (self.medium.extinction_at(one), self.medium.extinction_at(other));
         let sum = here * other.mu + there * one.mu;
-        // The minimum makes infinity of 0 / 0.
+        // The minimum turns 0 / 0 into infinity.
         let depth = (sum / (one.mu * other.mu)).min(f64::INFINITY) * self.thickness;
         one_minus_exp(depth) / sum
     }
@@ -105,7 +109,7 @@ impl Slab {
         mode[0] * self.reflected_once(one, other)
     }
 
-    /// What the kernel is multiplied by to give single scattering's transmitted radiance per unit of flux:
+    /// The factor by which the kernel is multiplied to give single scattering's transmitted radiance per unit of flux:
     /// (exp(-A_o) - exp(-A_i)) / ((A_i - A_o) mu_i mu_o) for thickness 1.
     pub fn transmitted_once(&self, one: Elevation, other: Elevation) -> f64 {
         let (depth, other_depth) = (self.depth(one.mu), self.depth(other.mu));
@@ -120,7 +124,7 @@ impl Slab {
         static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(SINGLE_NODES, 0.0, 1.0));
         check_cosine(mu);
         let from = Elevation::from_cosine(mu);
-        // The angle is warped to the horizon, t^3 of the whole: there lies what is narrow.
+        // The angle is warped towards the horizon, as t^3: whatever is narrow lies there.
         let term = |(t, weight): &(f64, f64)| {
             let to = Elevation::from_angle(FRAC_PI_2 * t * t * t);
             let measure = 2.0 * PI * to.s * to.mu * FRAC_PI_2 * 3.0 * t * t * weight;

@@ -3,8 +3,8 @@
 //! A path ends only where it leaves the slab, after as many scatterings as that takes. It does leave: nowhere is the phase
 //! function below sigma^3 / (4 pi), so that from any depth and direction, the next scattering turns a path to within 60
 //! degrees of the normal, and the flight after that takes it out, with a chance above a number that depends on sigma
-//! alone; the number of scatterings is below a geometric variable. Its mean stays under 100 down to alpha = 1/31, and under a
-//! thousand down to 1/127. A broken number cannot hold a path back either: a depth that is not inside (0, 1) ends it.
+//! alone; thus the number of scatterings is bounded by a geometric variable. Its mean stays under 100 down to alpha =
+//! 1/31, and under a thousand down to 1/127. Nor can NaN keep a path inside: a depth that is not in (0, 1) ends it.
 //!
 //! All scores are integers, so that sums do not depend on the order of threads: a seed gives the same counts on any
 //! number of them.
@@ -34,18 +34,20 @@ pub fn stream(seed: u64, index: u64) -> Pcg64 {
 /// How often a path's first flight ends in the slab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FirstFlight {
-    /// As nature has it: some paths pass unscattered.
+    /// As in nature: some paths pass unscattered.
     Analog,
     /// Always: each path stands for the share of light that is scattered at all, so that none is spent on the rest.
     Scattered,
 }
 
-/// What is walked.
+/// What to walk: how many paths, from where, through which slab.
 #[derive(Clone, Copy, Debug)]
 pub struct Walk {
+    /// The slab through which paths go.
     pub slab: Slab,
     /// Cosine of `wi` to the normal, in (0, 1\].
     pub mu: f64,
+    /// How the first flight of each path is sampled.
     pub first_flight: FirstFlight,
     /// Number of paths, >= 1.
     pub paths: u64,
@@ -53,10 +55,10 @@ pub struct Walk {
     pub seed: u64,
 }
 
-/// Counts of paths by where and how they left. Every path is counted once.
+/// Numbers of paths by where and how they left the slab. Every path is counted once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Passed below without a scattering.
+    /// Left below without a scattering.
     pub unscattered: u64,
     /// Left below after one scattering, by direction.
     pub transmitted_once: Histogram,
@@ -96,7 +98,7 @@ impl Counts {
         }
     }
 
-    /// These paths and those of `other`.
+    /// The counts of these paths and those of `other` together.
     #[must_use]
     pub fn plus(mut self, other: &Self) -> Self {
         self.unscattered += other.unscattered;
@@ -108,11 +110,11 @@ impl Counts {
     }
 }
 
-/// Counts over the upper or lower hemisphere, in bins of the magnitude of the cosine `mu_o` and of the azimuth from `wi`, the two sides of the
-/// plane of incidence counted together.
+/// Counts over the upper or lower hemisphere, in bins of the magnitude of the cosine `mu_o` and of the azimuth from
+/// `wi`; the two sides of the plane of incidence are counted together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Histogram {
-    /// Cosine's bin times [`Histogram::PHI_BINS`] plus azimuth's bin.
+    /// At the cosine's bin times [`Histogram::PHI_BINS`] plus the azimuth's bin.
     bins: Vec<u64>,
 }
 
@@ -128,7 +130,7 @@ impl Histogram {
     /// Bins of |phi| in \[0, pi\], of equal width.
     pub const PHI_BINS: usize = 32;
 
-    /// Counts, the cosine's bin by the azimuth's.
+    /// For each bin of the cosine, the counts in the azimuth's bins.
     pub fn bins(&self) -> impl Iterator<Item = &[u64]> {
         self.bins.chunks_exact(Self::PHI_BINS)
     }
@@ -138,12 +140,12 @@ impl Histogram {
         self.bins.iter().sum()
     }
 
-    /// Cosines between which the bins of row `k` in \[0, MU_BINS) lie.
+    /// The cosines between which bin `k` in \[0, MU_BINS) of the cosine lies.
     pub fn mu_range(k: usize) -> [f64; 2] {
         [k, k + 1].map(|edge| (edge as f64 / Self::MU_BINS as f64).powi(2))
     }
 
-    /// Azimuths between which the bins of column `k` in \[0, PHI_BINS) lie.
+    /// The azimuths between which bin `k` in \[0, PHI_BINS) of the azimuth lies.
     pub fn phi_range(k: usize) -> [f64; 2] {
         [k, k + 1].map(|edge| PI * edge as f64 / Self::PHI_BINS as f64)
     }
@@ -163,7 +165,7 @@ impl Histogram {
 }
 
 impl Walk {
-    /// Walks all paths, on the threads of the current rayon pool.
+    /// Walks all paths, on the threads of the current rayon pool. Panics unless `mu` is in (0, 1\] and there is a path.
     pub fn run(&self) -> Counts {
         assert!(self.mu > 0.0 && self.mu <= 1.0, "mu is in (0, 1]: {}", self.mu);
         assert!(self.paths >= 1, "a walk has paths: {}", self.paths);
@@ -203,7 +205,7 @@ impl Walk {
     /// Follows a path from its first scattering, at `depth` below the top in units of the thickness, until it leaves.
     fn path(&self, mut depth: f64, rng: &mut Pcg64, counts: &mut Counts) {
         let medium = self.slab.medium();
-        // Light comes from wi: what points back along the first flight.
+        // Light comes from wi, which therefore points back along the first flight.
         let mut back = DVec3::new(sine(self.mu), 0.0, self.mu);
         let mut seen = medium.stretched(back).normalize();
         let mut orders = 0_u64;
@@ -222,7 +224,7 @@ impl Walk {
                 back = -out;
                 seen = stretched * -inverse_extinction;
             } else {
-                // Below, or no number.
+                // Below, or not a number.
                 let histogram = if orders == 1 { &mut counts.transmitted_once } else { &mut counts.transmitted_more };
                 return histogram.count(out);
             }

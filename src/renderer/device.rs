@@ -6,13 +6,16 @@ use wgpu::{Adapter, Backends, Device, Instance, InstanceDescriptor, Queue, Surfa
 
 /// An opened graphics device.
 pub struct Gpu {
+    /// The driver's adapter: its name, features and limits.
     pub adapter: Adapter,
+    /// The device that was opened on it.
     pub device: Device,
+    /// The queue to which work for the device is submitted.
     pub queue: Queue,
 }
 
 impl Gpu {
-    /// Runs a future of this crate's to its end, waiting for the device whenever it is pending. Blocks; not for browsers,
+    /// Runs a future of this crate to its end, waiting for the device whenever it is pending. Blocks; not for browsers,
     /// where the event loop does this.
     pub fn block_on<T>(&self, future: impl Future<Output = T>) -> T {
         let mut future = std::pin::pin!(future);
@@ -21,19 +24,22 @@ impl Gpu {
             if let Poll::Ready(output) = future.as_mut().poll(&mut context) {
                 return output;
             }
-            // A failure to wait shows in what is waited for: a lost device fails to map its buffers.
+            // A failure to wait shows in the result that is waited for: a lost device fails to map its buffers.
             let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
         }
     }
 }
 
-/// No device could be opened.
+/// Why no device could be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceError {
+    /// There is no adapter at all, or none that can present to the window.
     #[error("no graphics adapter was found: install a Vulkan driver (scripts/setup does), or see `velour info`")]
     NoAdapter,
+    /// There are adapters, those `found`, but none has `wanted` in its name.
     #[error("no adapter's name contains '{wanted}': this machine has {}", found.join(", "))]
     NoMatch { wanted: String, found: Vec<String> },
+    /// The driver of `adapter` gives no device, because of `source`.
     #[error("adapter '{adapter}' gave no device: {source}")]
     Refused { adapter: String, source: wgpu::RequestDeviceError },
 }
@@ -46,7 +52,7 @@ pub fn instance(backends: Backends) -> Instance {
     Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_without_display_handle() })
 }
 
-/// The same for a window, which `display` is the display of.
+/// The same for a window on the given `display`.
 pub fn instance_for_window(backends: Backends, display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>) -> Instance {
     Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_with_display_handle(display) })
 }
@@ -90,7 +96,8 @@ pub async fn open(
     Ok(Gpu { adapter, device, queue })
 }
 
-/// 32-bit float targets with samples; and where the processor's memory is the device's, buffers that are filled where they stay.
+/// Multisampled targets of 32-bit floats; and, where the device shares the processor's memory, buffers that are filled
+/// in place.
 fn wanted_features(kind: wgpu::DeviceType) -> wgpu::Features {
     let shared = matches!(kind, wgpu::DeviceType::Cpu | wgpu::DeviceType::IntegratedGpu);
     let mappable = if shared { wgpu::Features::MAPPABLE_PRIMARY_BUFFERS } else { wgpu::Features::empty() };

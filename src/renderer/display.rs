@@ -1,4 +1,4 @@
-//! The second pass: radiance to what is shown or measured.
+//! The second pass: from radiance to what is shown or measured.
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::{BindGroup, BindGroupLayout, CommandEncoder, Device, Queue, RenderPipeline, TextureFormat, TextureView};
@@ -10,12 +10,12 @@ use crate::picture::ToneCurve;
 /// The pass' WGSL.
 const DISPLAY_WGSL: &str = include_str!("../../shaders/passes/display.wgsl");
 
-/// What becomes of the radiance.
+/// What the radiance is turned into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Showing {
-    /// Exposure, tone curve, sRGB.
+    /// sRGB of `exposure` stops, through the tone curve.
     Shown { exposure: f32, tone: ToneCurve },
-    /// The mean of each pixel's samples.
+    /// Linear radiance: the mean of each pixel's samples.
     Measured,
 }
 
@@ -29,7 +29,7 @@ struct Uniforms {
 }
 
 impl Showing {
-    /// What radiance is multiplied by.
+    /// The factor that radiance is multiplied by.
     pub(super) fn gain(self) -> f32 {
         match self {
             Self::Shown { exposure, .. } => exposure.exp2(),
@@ -47,7 +47,7 @@ pub struct DisplayPass {
 }
 
 impl DisplayPass {
-    /// `measured`: for `Showing::Measured`; otherwise for `Showing::Shown`.
+    /// The pass for `Showing::Measured` where `measured`, else for `Showing::Shown`.
     pub fn new(device: &Device, radiance: RadianceFormat, output: TextureFormat, measured: bool) -> Self {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("display"),
@@ -72,7 +72,8 @@ impl DisplayPass {
         Self { pipeline, layout, uniforms, radiance_binding }
     }
 
-    /// Shows the targets' radiance in the rectangle `place` (of at most the targets' size) of the output. What lies around it becomes black.
+    /// Shows the targets' radiance in the rectangle `place` of the output, which is at most of the targets' size. What
+    /// lies around it becomes black.
     pub fn encode(
         &self,
         (device, queue): (&Device, &Queue),

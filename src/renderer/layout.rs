@@ -1,4 +1,4 @@
-//! For tests: whether a struct stands in Rust's memory as it does in WGSL's.
+//! For tests: whether a struct has the same layout in memory in Rust and in WGSL.
 
 use wgpu::naga::{self, TypeInner};
 
@@ -10,8 +10,8 @@ macro_rules! members {
 }
 pub(super) use members;
 
-/// Where the WGSL struct `name` differs from a Rust one of `size` bytes with these `members`: those that WGSL has, in
-/// its order; padding is Rust's own affair. Of arrays, WGSL's stride is a struct's size.
+/// How the WGSL struct `name` differs from a Rust one of `size` bytes with these `members`. They are the members that
+/// WGSL has, in its order, without Rust's padding. In arrays, WGSL's stride is a struct's size.
 pub(super) fn differences(wgsl: &str, name: &str, size: usize, members: &[(&str, usize)]) -> Vec<String> {
     let module = naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
     let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));

@@ -1,4 +1,4 @@
-//! Lights as the shaders walk through them.
+//! Lights as the shaders read them.
 
 use std::ops::Range;
 
@@ -47,7 +47,7 @@ pub(super) struct GpuCounts {
     punctual: u32,
 }
 
-/// Points on each polygon where sheens without a closed form are summed; more where it has many triangles.
+/// Points on each polygon at which sheens without a closed form are summed; there are more where it has many triangles.
 const POINTS: f64 = 128.0;
 
 /// Which kinds of lights there are.
@@ -55,7 +55,7 @@ const POINTS: f64 = 128.0;
 pub(super) struct LightKinds {
     /// Polygons of one outline of four vertices.
     pub quads: bool,
-    /// Any others.
+    /// Any other polygons.
     pub polygons: bool,
     pub punctual: bool,
 }
@@ -70,24 +70,24 @@ fn is_quad(polygon: &Polygon) -> bool {
     polygon.contours.len() == 1 && polygon.contours[0].len() == 4
 }
 
-/// The lights of a scene as the shaders walk through them.
+/// The lights of a scene as the shaders read them.
 pub(super) struct GpuLights {
     pub counts: GpuCounts,
     /// Quads first.
     pub polygons: Vec<GpuPolygon>,
-    /// Outlines: each one's first vertex is marked by w = 1 and comes again at its end, marked by -1.
+    /// Outlines: the first vertex of each is marked by w = 1, and is repeated at its end with w = -1.
     pub vertices: Vec<Vec4>,
     pub punctual: Vec<GpuPunctual>,
-    /// Points on the polygons, with the areas that they stand for as w; none where they are not needed.
+    /// Points on the polygons, with the areas that they stand for as w; empty where they are not needed.
     pub points: Vec<Vec4>,
 }
 
 impl GpuLights {
-    /// `sampled`: with points.
+    /// The lights of `scene`; with points on them where `sampled`.
     pub fn new(scene: &Scene, sampled: bool) -> Self {
         let (mut polygons, mut vertices, mut points) = (Vec::new(), Vec::new(), Vec::new());
         let mut add = |quads: bool| {
-            // Black ones light nothing and are left out.
+            // Black lights contribute nothing and are left out.
             for light in scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
                 for polygon in light.polygons.iter().filter(|polygon| is_quad(polygon) == quads) {
                     let first_point = points.len() as u32;
@@ -129,7 +129,8 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, point
     }
 }
 
-/// A sphere around a polygon. Its centre lies in the plane through the first vertex, so that both tell the same side of the light.
+/// A sphere around a polygon. Its centre lies in the polygon's plane through the first vertex, so that a point is on
+/// the same side of the light whichever of the two it is compared with.
 fn sphere(polygon: &Polygon) -> (Vec3, f32) {
     let vertices = || polygon.contours.iter().flatten().map(|vertex| vertex.as_dvec3());
     let (normal, first) = (polygon.normal.as_dvec3(), polygon.contours[0][0].as_dvec3());
@@ -138,15 +139,17 @@ fn sphere(polygon: &Polygon) -> (Vec3, f32) {
     let middle = 0.5 * (low + high);
     let center = (middle - normal * normal.dot(middle - first)).as_vec3();
     let radius = vertices().map(|vertex| vertex.distance(center.as_dvec3())).fold(0.0, f64::max);
-    // Room for the rounding of the shader's comparison, which is one of world coordinates.
+    // Room for rounding in the shader's comparison, which is made in world coordinates.
     let size = center.abs().max_element() + radius as f32;
     (center, radius as f32 + 1e-6 * size)
 }
 
-/// Points on a polygon with the areas that they stand for, [`POINTS`] of a rectangle: on each triangle Gauss and Legendre's product, along the
-/// way from a corner to the opposite side and across it, of which a triangle has as many as its share of the area asks for.
+/// Points on a polygon with the areas that they stand for, [`POINTS`] of them on a rectangle. Each triangle gets a
+/// product of two Gauss-Legendre rules, one along the way from a corner to the opposite side and one across it, with as
+/// many nodes as its share of the area calls for.
 ///
-/// What is smooth over the light is integrated far better than by as many points at random or in a low-discrepancy sequence.
+/// Functions that are smooth over the light are integrated far better than by as many points at random or in a
+/// low-discrepancy sequence.
 fn spread(polygon: &Polygon) -> Vec<Vec4> {
     let parts = polygon.convex_parts();
     let fan = |part: &Vec<DVec3>| -> Vec<[DVec3; 3]> {
@@ -159,7 +162,7 @@ fn spread(polygon: &Polygon) -> Vec<Vec4> {
     for triangle in triangles.iter().filter(|triangle| twice_area(triangle) > 0.0) {
         let [a, b, c] = *triangle;
         let twice_area = twice_area(triangle);
-        // Less a rounding, so that halves ask for half.
+        // Reduced by a rounding error, so that each half of a rectangle gets half of the points and not a row more.
         let side = ((POINTS * twice_area / whole).sqrt() - 1e-6).ceil().max(1.0);
         let nodes = gauss_legendre(side as usize, 0.0, 1.0);
         for &(along, along_weight) in &nodes {
@@ -232,7 +235,7 @@ mod tests {
         }
     }
 
-    /// Moments of the points are those of the area, holes left out.
+    /// The points have the moments of the area without its holes.
     #[test]
     fn points_are_even_over_a_polygon() {
         let square = |half: f32| [[-half, -half], [half, -half], [half, half], [-half, half]];

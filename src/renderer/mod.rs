@@ -35,27 +35,33 @@ use targets::Targets;
 use crate::scene::{Scene, Settings};
 use crate::table::SheenTable;
 
-/// A picture could not be made.
+/// Why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     #[error(
         "{what} take {bytes} bytes on the device, which holds at most {limit} in one piece: split the mesh or use another adapter"
     )]
+    /// The buffer of `what` is larger, at `bytes`, than the `limit` of the device.
     TooLarge { what: String, bytes: u64, limit: u64 },
+    /// A side of a picture of `size` pixels is 0, or longer than the `limit` of the device's textures.
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
     Size { size: [u32; 2], limit: u32 },
+    /// The adapter cannot draw into targets of `what` with this many `samples` per pixel; `instead` is what to try.
     #[error("this adapter cannot draw {what} with {samples} samples a pixel: use {instead}")]
     Multisampling { what: &'static str, samples: u32, instead: &'static str },
+    /// The picture could not be copied from the device.
     #[error("the device did not hand the picture over ({0}): try a smaller --size or another --adapter")]
     Readback(String),
 }
 
-/// What is drawn, and how it is kept and shown.
+/// In which formats radiance is kept and shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Format {
+    /// The format of the first pass' target.
     pub radiance: RadianceFormat,
+    /// The format of the texture that the second pass draws into.
     pub output: wgpu::TextureFormat,
-    /// The output is plain linear radiance (`Showing::Measured`).
+    /// Whether the output is plain linear radiance (`Showing::Measured`).
     pub measured: bool,
 }
 
@@ -83,7 +89,7 @@ impl Renderer {
         Ok(Self { format, resident, surfaces, display, targets: None })
     }
 
-    /// Takes over changed materials, lights, places and settings of the same scene.
+    /// Sends changed materials, lights, places and settings of the same scene to the device.
     pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
         if self.resident.update(gpu, scene, settings)? {
             self.surfaces.rebind(&gpu.device, &self.resident);
@@ -92,7 +98,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which stay for `show`.
+    /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which are kept for
+    /// `show`.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -108,8 +115,8 @@ impl Renderer {
         self.targets = Some(targets);
     }
 
-    /// The second pass: shows what was drawn last, for the same exposure, from the output's pixel `origin` on. Other pixels
-    /// of the output become black.
+    /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the
+    /// pixel `origin` on. Other pixels of the output become black.
     pub fn show(
         &self,
         gpu: &Gpu,

@@ -8,7 +8,7 @@ use crate::picture::{DisplayImage, LinearImage, ToneCurve};
 use crate::scene::{Camera, Scene, Settings};
 use crate::table::SheenTable;
 
-/// Pictures up to this side are drawn in one piece.
+/// Longest side of a tile: pictures up to this size are drawn in one piece.
 const TILE_SIDE: u32 = 2048;
 
 /// Draws one scene into pictures.
@@ -18,7 +18,8 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// For pictures that are shown (`display`), with 1 or 4 samples a pixel.
+    /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
+    /// or where the scene does not fit on the device.
     pub fn for_display(
         gpu: &Gpu,
         samples: u32,
@@ -32,7 +33,7 @@ impl Offscreen {
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
 
-    /// For linear pictures (`linear`), with 1 or 4 samples a pixel.
+    /// For linear pictures (`linear`), with 1 or 4 samples per pixel. Fails as `for_display` does.
     pub fn for_linear(
         gpu: &Gpu,
         samples: u32,
@@ -46,13 +47,14 @@ impl Offscreen {
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
 
-    /// Takes over changed materials, lights, places and settings of the same scene; its meshes and textures are as they were.
+    /// Sends changed materials, lights, places and settings of the same scene to the device; its meshes and textures
+    /// stay as they were.
     pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
         self.renderer.update(gpu, scene, settings)
     }
 
-    /// The picture as shown; made by `for_display`. Of the settings lobes, ambient and exposure count: the others were taken over when it was made
-    /// or updated.
+    /// The picture as it is shown. Of the settings, only lobes, ambient light and exposure are read here; the others
+    /// took effect when this was made or updated. Panics unless this was made by `for_display`.
     pub async fn display(
         &mut self,
         gpu: &Gpu,
@@ -67,7 +69,8 @@ impl Offscreen {
         Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
     }
 
-    /// Linear radiance; made by `for_linear`, of settings as `display` takes them. With one sample a pixel, each pixel is the value at its centre.
+    /// Linear radiance; reads the settings as `display` does. With one sample per pixel, each pixel is the value at its
+    /// centre. Panics unless this was made by `for_linear`.
     pub async fn linear(
         &mut self,
         gpu: &Gpu,
@@ -111,7 +114,7 @@ impl Offscreen {
         Ok(pixels)
     }
 
-    /// Draws one tile and reads its texels back, in rows of equal length, padding at their ends.
+    /// Draws one tile and reads its texels back, in rows of equal length that have padding at their ends.
     async fn tile(
         &mut self,
         gpu: &Gpu,
@@ -161,8 +164,8 @@ fn cannot_draw(what: &'static str, samples: u32) -> RenderError {
     RenderError::Multisampling { what, samples, instead }
 }
 
-/// Resolves when the buffer can be read. Somebody has to poll the device meanwhile: a browser does, elsewhere
-/// `Gpu::block_on`.
+/// Resolves when the buffer can be read. The device has to be polled meanwhile: a browser does so by itself, elsewhere
+/// `Gpu::block_on` does.
 async fn map(buffer: &wgpu::Buffer) -> Result<(), RenderError> {
     type Mapped = (Option<Result<(), wgpu::BufferAsyncError>>, Option<Waker>);
     let shared = Arc::new(Mutex::new(Mapped::default()));

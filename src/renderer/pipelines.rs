@@ -79,7 +79,8 @@ impl Pipelines {
     }
 }
 
-/// A buffer an attribute, in the order of the shader's locations. One that the mesh lacks is read again for every vertex.
+/// One buffer for each attribute, in the order of the shader's locations. For an attribute that the mesh lacks, every
+/// vertex reads the same constant.
 fn vertex_layouts(attributes: Attributes) -> [Option<VertexBufferLayout<'static>>; 6] {
     const fn attribute(format: VertexFormat, shader_location: u32) -> wgpu::VertexAttribute {
         wgpu::VertexAttribute { format, offset: 0, shader_location }
@@ -92,7 +93,7 @@ fn vertex_layouts(attributes: Attributes) -> [Option<VertexBufferLayout<'static>
         attribute(VertexFormat::Float32x2, 4),
         attribute(VertexFormat::Unorm16x4, 5),
     ];
-    // In place of colours stand floats: those that are there for the other attributes.
+    // The constant that stands in for colours is made of floats, as those of the other attributes are.
     const WHITE: wgpu::VertexAttribute = attribute(VertexFormat::Float32x4, 5);
     let Attributes { tangents, tex_coords: [first, second], colors, .. } = attributes;
     let present = [true, true, tangents, first, second, colors];

@@ -6,7 +6,7 @@ use super::Gpu;
 
 /// `SHEENS_NODES` of `sheens.wgsl`: nodes of the table, for each model along both axes.
 pub(super) const NODES: u32 = 64;
-/// Models.
+/// Number of models in the table.
 const MODELS: u32 = 4;
 
 /// The table that `sheens.wgsl` looks up: logarithms of albedos.
@@ -16,7 +16,7 @@ pub(super) struct SheenAlbedos {
 }
 
 impl SheenAlbedos {
-    /// Not filled yet.
+    /// The table, not filled yet.
     pub fn new(device: &Device) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("sheen albedos"),
@@ -35,7 +35,7 @@ impl SheenAlbedos {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
-    /// Draws the table, unless it is there.
+    /// Draws the table, unless that has been done.
     pub fn fill(&mut self, gpu: &Gpu, shader: &ShaderModule) {
         if self.is_filled {
             return;

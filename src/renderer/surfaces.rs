@@ -50,7 +50,7 @@ pub struct SurfacesPass {
     pipelines: Pipelines,
     frame: wgpu::Buffer,
     albedos: SheenAlbedos,
-    /// Of the sheen, the specular base, and the albedos of the other sheens.
+    /// The tables of the sheen, of the specular base, and of the albedos of the other sheens.
     tables: [TextureView; 3],
     bind_group: BindGroup,
     triangles_a_pass: u32,
@@ -87,7 +87,7 @@ impl SurfacesPass {
         pass
     }
 
-    /// Makes what the scene needs and what is not there yet: pipelines, and the table of other sheens' albedos.
+    /// Makes what the scene needs and does not have yet: pipelines, and the table of the other sheens' albedos.
     pub(super) fn prepare(&mut self, gpu: &Gpu, resident: &Resident) {
         if resident.draws.samples_lights() {
             self.albedos.fill(gpu, &self.pipelines.shader);
@@ -100,7 +100,7 @@ impl SurfacesPass {
         }
     }
 
-    /// Takes over buffers that were made anew.
+    /// Binds buffers that were made anew.
     pub(super) fn rebind(&mut self, device: &Device, resident: &Resident) {
         self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);
     }
@@ -146,7 +146,8 @@ impl SurfacesPass {
     }
 }
 
-/// Triangles that a pass draws at most on software drivers, which sort them by tiles first and keep 70 bytes of each until the pass ends.
+/// Most triangles that a pass draws on software drivers, which first sort them into tiles and keep 70 bytes for each
+/// until the pass ends.
 const TRIANGLES_A_PASS: u32 = 1 << 16;
 
 /// One call of a pass.
@@ -155,11 +156,11 @@ struct Call<'a> {
     culled: Option<Face>,
     instances: Range<u32>,
     indices: Range<u32>,
-    /// Which pass.
+    /// Index of the pass that it belongs to.
     pass: usize,
 }
 
-/// What the view shows, in order, in pieces that fit into a pass.
+/// The calls that draw what the view shows, in order, in pieces that fit into a pass.
 fn calls<'a>(resident: &'a Resident, frustum: &Frustum, triangles_a_pass: u32) -> Vec<Call<'a>> {
     let draws = resident.draws.opaque(frustum).chain(resident.draws.blended(frustum));
     let mut calls: Vec<Call> = Vec::new();
@@ -173,7 +174,7 @@ fn calls<'a>(resident: &'a Resident, frustum: &Frustum, triangles_a_pass: u32) -
                 if room < triangles.min(triangles_a_pass) {
                     (pass, room) = (pass + 1, triangles_a_pass);
                 }
-                // As many whole instances as there is room for, else a part of one.
+                // As many whole instances as there is room for; where there is none for a whole one, a part of it.
                 let (count, indices) = match room / triangles.max(1) {
                     0 => (0, first..first + 3 * room),
                     _ if first > 0 => (1, first..index_count),
@@ -190,7 +191,7 @@ fn calls<'a>(resident: &'a Resident, frustum: &Frustum, triangles_a_pass: u32) -
     calls
 }
 
-/// Begins a pass over the targets, which are cleared first or go on.
+/// Begins a pass over the targets, which are cleared first or keep what they hold.
 fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: bool) -> RenderPass<'a> {
     let (color, depth) = match clears {
         true => (wgpu::LoadOp::Clear(wgpu::Color::BLACK), wgpu::LoadOp::Clear(0.0)),
@@ -213,7 +214,8 @@ fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: b
     })
 }
 
-/// What each pass over a mesh leaves out: what is seen through on both sides is drawn from the back first.
+/// The faces that each call for a mesh leaves out. A mesh that is double-sided and blended takes two: its back faces
+/// are drawn first.
 fn culled_faces(variant: &Variant) -> &'static [Option<Face>] {
     match (variant.look.double_sided, variant.look.blend) {
         (false, _) => &[Some(Face::Back)],

@@ -10,18 +10,19 @@ pub const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 pub struct RadianceFormat {
     /// `Rgba16Float` (11 bits, up to 65504: for the screen) or `Rgba32Float` (for measuring).
     pub texture: TextureFormat,
-    /// Samples a pixel: 1 or 4.
+    /// Samples per pixel: 1 or 4.
     pub samples: u32,
 }
 
 impl RadianceFormat {
-    /// For pictures that are looked at; none where the adapter cannot multisample those.
+    /// For pictures that are looked at: 16-bit floats; `None` where the adapter cannot draw those with that many
+    /// samples.
     pub fn display(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
         let format = Self { texture: TextureFormat::Rgba16Float, samples };
         format.is_drawn_by(adapter).then_some(format)
     }
 
-    /// For linear pictures: 32-bit floats; none where the adapter cannot draw or multisample those.
+    /// For linear pictures: 32-bit floats; `None` where the adapter cannot draw those with that many samples.
     pub fn linear(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
         let format = Self { texture: TextureFormat::Rgba32Float, samples };
         format.is_drawn_by(adapter).then_some(format)
@@ -37,7 +38,7 @@ impl RadianceFormat {
 
     fn is_drawn_by(self, adapter: &wgpu::Adapter) -> bool {
         let features = adapter.get_texture_format_features(self.texture);
-        // OpenGL has no textures of several samples that can be read: wgpu makes black ones of them.
+        // In OpenGL, multisampled textures cannot be read: with wgpu they turn out black.
         let is_read = self.samples == 1 || adapter.get_info().backend != wgpu::Backend::Gl;
         features.allowed_usages.contains(TextureUsages::RENDER_ATTACHMENT)
             && features.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE)

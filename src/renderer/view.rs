@@ -7,9 +7,13 @@ use crate::scene::{Camera, Projection};
 /// A rectangle of pixels, from the picture's upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rect {
+    /// Columns left of it.
     pub x: u32,
+    /// Rows above it.
     pub y: u32,
+    /// Columns in it.
     pub width: u32,
+    /// Rows in it.
     pub height: u32,
 }
 
@@ -19,7 +23,7 @@ impl Rect {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// Covers a picture with tiles of at most `side` x `side` pixels, row by row.
+    /// Covers a picture with tiles of at most `side` x `side` pixels, row by row. Panics where `side` is 0.
     pub fn tiles(size: [u32; 2], side: u32) -> impl Iterator<Item = Self> {
         assert!(side > 0, "a tile's side is positive, not {side}");
         (0..size[1]).step_by(side as usize).flat_map(move |y| {
@@ -33,14 +37,17 @@ impl Rect {
     }
 }
 
+/// What the vertex shader needs of a camera.
+///
 /// Clip space has depth 1 at the near plane and 0 at the far one ("reversed"), which spreads the precision of a
 /// floating-point depth evenly over the distance.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
+    /// From world to clip space, for the tile.
     pub clip_from_world: Mat4,
-    /// The eye's place (w = 1), or the direction towards it (w = 0) of an orthographic view.
+    /// The eye's place (w = 1) or, for an orthographic view, the direction towards it (w = 0); in world space.
     pub eye: Vec4,
-    /// The camera's place.
+    /// The camera's place in world space.
     pub origin: Vec3,
 }
 
@@ -60,13 +67,13 @@ impl View {
     }
 }
 
-/// The projection on its own; `aspect` = width / height.
+/// The projection alone; `aspect` = width / height.
 fn clip_from_camera(projection: Projection, aspect: f64) -> DMat4 {
     let scale = |y: f64, depth: [DVec4; 2]| DMat4::from_cols(DVec4::X * (y / aspect), DVec4::Y * y, depth[0], depth[1]);
     match projection {
         Projection::Perspective { yfov, near, far } => {
             let (near, far) = (f64::from(near), f64::from(far));
-            // As far grows the first tends to 0 and the second to near.
+            // As far grows, the first tends to 0 and the second to near.
             let (a, b) = if far.is_finite() { (near / (far - near), near * far / (far - near)) } else { (0.0, near) };
             scale(1.0 / (0.5 * f64::from(yfov)).tan(), [DVec4::new(0.0, 0.0, a, -1.0), DVec4::Z * b])
         }

@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::{MAX_SIDE, NODE_TOLERANCE, TableError, node};
 use std::fmt::Write;
 
-/// What the lines of a table hold: the node's place on both axes, and its numbers.
+/// What each line of a table holds: the node's place on both axes, and its numbers.
 pub(super) struct Columns<const N: usize> {
     pub axes: [&'static str; 2],
     pub values: [&'static str; N],
@@ -22,8 +22,8 @@ struct Row<const N: usize> {
 impl<const N: usize> Columns<N> {
     /// Reads lines in order of the axes, the second varying fastest.
     ///
-    /// The column names, empty lines and lines that begin with `#` may stand or be left out; spaces around numbers and
-    /// CRLF line ends do not count.
+    /// A line of column names at the top, empty lines and lines that begin with `#` are optional; spaces around numbers
+    /// and CRLF line ends do not matter.
     pub fn read(&self, text: &str) -> Result<Grid<N>, TableError> {
         let rows = self.rows(text)?;
         let size = size(&rows, self.axes).map_err(|problem| self.broken(problem))?;
@@ -103,7 +103,8 @@ impl<const N: usize> Columns<N> {
     }
 }
 
-/// The nodes of both axes that the rows are made of: those at the first node of the first count the second.
+/// How many nodes the rows have along both axes: the rows at the first node of the first axis count those of the
+/// second.
 fn size<const N: usize>(rows: &[Row<N>], [first_name, second_name]: [&str; 2]) -> Result<[usize; 2], String> {
     let Some(first) = rows.first() else {
         return Err("no line of numbers".to_owned());

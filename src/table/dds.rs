@@ -7,7 +7,7 @@ use half::f16;
 
 /// A 2D texture of RGBA16F or RGBA32F that was read.
 pub(super) struct Texture {
-    /// Nodes along x and y, of as many texels each as there are parts.
+    /// Nodes along x and y; each has a texel in every part.
     size: [usize; 2],
     /// Row by row.
     texels: Vec<[f64; 4]>,
@@ -16,12 +16,12 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// Reads a texture whose height is that of `parts` tables, one above the other, of up to [`MAX_SIDE`] nodes a side.
+    /// Reads a texture as high as `parts` tables, one above the other, of up to [`MAX_SIDE`] nodes a side.
     pub fn read(bytes: &[u8], parts: usize) -> Result<Self, TableError> {
         read(bytes, parts).map_err(|problem| TableError::Dds { problem })
     }
 
-    /// The numbers of each node from its texels in all parts, unless one is `wrong`.
+    /// The numbers of each node, made from its texels in all parts; an error where `wrong` finds a defect in one.
     pub fn grid<const PARTS: usize, const N: usize>(
         &self,
         numbers: fn([[f64; 4]; PARTS]) -> [f64; N],
@@ -86,7 +86,7 @@ fn read(bytes: &[u8], parts: usize) -> Result<Texture, String> {
     Ok(Texture { size, texels, header_bytes: bytes.len() - expected, texel_bytes })
 }
 
-/// Bytes of a texel, once the headers are seen to describe one plain 2D texture of a format that is read.
+/// The bytes of a texel, if the headers describe one plain 2D texture in a format that is read.
 fn texel_bytes(dds: &Dds) -> Result<usize, String> {
     let header = &dds.header;
     if header.depth.is_some_and(|depth| depth > 1) || header.caps2.intersects(Caps2::VOLUME | Caps2::CUBEMAP) {

@@ -8,11 +8,12 @@
 //! | `albedo` | R, the share that a perfect mirror of this roughness sends back | (0, 1\] |
 //! | `fresnel` | the same weighted by (1 - dot(wi, h))^5 | \[0, albedo\] |
 //!
-//! A sharp lobe points in the mirrored direction and has c near 1 / (2 alpha): u and v are what is left of the matrix once that is taken
-//! away, s is nearly proportional to roughness, and all are smooth down to the mirror, where a, b, c are not.
+//! A sharp lobe points in the mirrored direction and has c near 1 / (2 alpha): u and v are what is left of the matrix
+//! once that is taken away, and s is nearly proportional to roughness. All three are smooth down to the mirror, where
+//! a, b, c are not.
 //!
-//! A .csv holds one line a node, in order of roughness; a .dds holds two textures one above the other, x = roughness, y = t: first the
-//! texels u, v, s, 1, below them albedo, fresnel, 0, 1.
+//! A .csv holds one line for each node, in order of roughness; a .dds holds two textures one above the other,
+//! x = roughness, y = t: at the top the texels u, v, s, 1, below them albedo, fresnel, 0, 1.
 
 use super::csv::Columns;
 use super::dds::{self, Texture};
@@ -21,10 +22,10 @@ use super::{Ltc, TableError};
 use crate::math::sine;
 use std::path::Path;
 
-/// Least a / c: what bilinear lookup may not fall below, however a table's u is.
+/// Least a / c that a lookup gives, whatever a table's u is.
 pub const LEAST_ASPECT: f64 = 1e-5;
 
-/// The cosine below which shapes are those of it.
+/// The least cosine whose shape is its own: below it, shapes are those at this cosine.
 pub const GRAZING_MU: f64 = 0.01;
 
 /// Least s and albedo of a table that is read.
@@ -33,12 +34,13 @@ const LEAST: f64 = 1e-2;
 /// Greatest |u|, |v| and s of a table that is read; those of ours stay below 2.
 const GREATEST: f64 = 16.0;
 
-/// Halves differ more finely near 0 than the fit is known: smaller differences do not count.
+/// Largest difference that does not count: near 0, halves are finer than the fit is known.
 const NEGLIGIBLE: f64 = 1e-5;
 
 /// The lobe of a rough mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GgxLobe {
+    /// The transformed cosine, whose integral is 1.
     pub ltc: Ltc,
     /// R.
     pub albedo: f64,
@@ -46,7 +48,7 @@ pub struct GgxLobe {
     pub fresnel: f64,
 }
 
-/// A grid of lobes.
+/// A grid of lobes: `u`, `v`, `s`, `albedo`, `fresnel` at the nodes of `(roughness, t)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GgxTable {
     /// `[u, v, s, albedo, fresnel]` over (roughness, t).
@@ -69,7 +71,7 @@ impl GgxTable {
         super::embedded(Self::from_csv(include_str!("../../tables/ggx_ltc.csv")))
     }
 
-    /// Reads a .csv or .dds file, told apart by its extension.
+    /// Reads a .csv or .dds file, told apart by its extension; fails with [`TableError::In`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self, TableError> {
         super::load(path.as_ref(), Self::from_csv, Self::from_dds)
     }
@@ -84,7 +86,7 @@ impl GgxTable {
         COLUMNS.write(&self.grid, header)
     }
 
-    /// Reads the two textures one above the other, RGBA16F or RGBA32F; the channels that are not named are not looked at.
+    /// Reads the two textures one above the other, RGBA16F or RGBA32F; the channels that hold 0 and 1 are ignored.
     pub fn from_dds(bytes: &[u8]) -> Result<Self, TableError> {
         let numbers = |[[u, v, s, _], [albedo, fresnel, ..]]: [[f64; 4]; 2]| [u, v, s, albedo, fresnel];
         Ok(Self { grid: Texture::read(bytes, 2)?.grid(numbers, cell_defect)? })
@@ -106,12 +108,12 @@ impl GgxTable {
         [width, 2 * height]
     }
 
-    /// `[u, v, s, albedo, fresnel]` of node `(i, j)` of (roughness, t).
+    /// `[u, v, s, albedo, fresnel]` of node `(i, j)` of (roughness, t); panics outside [`Self::size`].
     pub fn cell(&self, i: usize, j: usize) -> [f64; 5] {
         self.grid.cell(i, j)
     }
 
-    /// The lobe at `roughness` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
+    /// The lobe at `roughness` and `mu`, which are clamped to \[0, 1\], bilinear between the nodes. Panics on NaN.
     pub fn lookup(&self, roughness: f64, mu: f64) -> GgxLobe {
         assert!(!roughness.is_nan() && !mu.is_nan(), "lookup at roughness {roughness}, mu {mu}");
         let mu = mu.clamp(0.0, 1.0);
@@ -122,7 +124,7 @@ impl GgxTable {
         GgxLobe { ltc, albedo, fresnel }
     }
 
-    /// What a texture of [`Self::texture_size`] takes, row by row.
+    /// The texels of a texture of [`Self::texture_size`], row by row.
     pub fn texels(&self) -> Vec<[f32; 4]> {
         self.rows().map(|texel| texel.map(|value| value as f32)).collect()
     }
@@ -132,8 +134,8 @@ impl GgxTable {
         grid::checksum(&self.texels())
     }
 
-    /// The largest difference to `other` over all numbers, in steps from one half-float to the next; none where the sizes differ.
-    /// Differences below 1e-5 do not count.
+    /// The largest difference from `other` over all numbers, in steps from one half-float to the next; `None` where the
+    /// sizes differ. Differences up to 1e-5 do not count.
     pub fn half_steps(&self, other: &Self) -> Option<u32> {
         self.grid.half_steps(&other.grid, NEGLIGIBLE)
     }

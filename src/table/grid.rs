@@ -43,8 +43,8 @@ impl<const N: usize> Grid<N> {
         })
     }
 
-    /// The largest difference to `other` over all numbers, in steps from one half-float to the next; none where the sizes differ. Those
-    /// within `negligible` do not count.
+    /// The largest difference from `other` over all numbers, in steps from one half-float to the next; `None` where the
+    /// sizes differ. Differences up to `negligible` do not count.
     pub fn half_steps(&self, other: &Self, negligible: f64) -> Option<u32> {
         let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
         let apart = pairs.filter(|(one, other)| (*one - *other).abs() > negligible);

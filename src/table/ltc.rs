@@ -4,10 +4,12 @@ use crate::math::warp::cosine_hemisphere;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The inverse matrix (a, 0, b), (0, a, 0), (0, 0, 1), by rows.
+/// The sheen's inverse matrix, whose rows are (a, 0, b), (0, a, 0), (0, 0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheenLtc {
+    /// Scale along the surface, >= 0.
     pub a: f64,
+    /// Shear along x, of either sign.
     pub b: f64,
 }
 
@@ -20,7 +22,7 @@ impl SheenLtc {
         self.density_and_slopes(wo).0
     }
 
-    /// A direction of that density from two uniform numbers in \[0, 1). `a` is above 0.
+    /// A direction of that density from two uniform numbers in \[0, 1). Panics unless `a` is above 0.
     pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
         Ltc { a: self.a, b: self.b, c: self.a }.sample(uniforms)
     }
@@ -31,18 +33,21 @@ impl SheenLtc {
         let (x, y, z) = (a * wo.x + b * wo.z, a * wo.y, wo.z);
         let square = x * x + y * y + z * z;
         let density = a * a * z.max(0.0) / (PI * square * square);
-        // Of ln(square), by a times a and by b.
+        // The derivatives of ln(square) by ln(a) and by b.
         let by_ln_a = 2.0 * a * (x * wo.x + y * wo.y) / square;
         let by_b = 2.0 * x * wo.z / square;
         (density, [density * (2.0 - 2.0 * by_ln_a), density * -2.0 * by_b])
     }
 }
 
-/// The inverse matrix (a, 0, b), (0, c, 0), (0, 0, 1), by rows: of a lobe that is longer than wide.
+/// An inverse matrix whose rows are (a, 0, b), (0, c, 0), (0, 0, 1), for lobes whose length and width differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ltc {
+    /// Scale along x, > 0.
     pub a: f64,
+    /// Shear along x, of either sign.
     pub b: f64,
+    /// Scale along y, > 0.
     pub c: f64,
 }
 
@@ -57,15 +62,16 @@ impl Ltc {
         self.a * self.c * z.max(0.0) / (PI * square * square)
     }
 
-    /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, transformed by the matrix
-    /// (1/a, 0, -b/a), (0, 1/c, 0), (0, 0, 1) and normalised. `a` and `c` are above 0.
+    /// A direction of that density from two uniform numbers in \[0, 1): a sample of the cosine, taken where
+    /// [`Self::direction`] takes it. Panics unless `a` and `c` are above 0.
     pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
         let Self { a, c, .. } = *self;
         assert!(a > 0.0 && c > 0.0, "a singular matrix has no samples: a = {a}, c = {c}");
         self.direction(cosine_hemisphere(uniforms))
     }
 
-    /// Where the matrix takes a direction of the cosine, unit: (1/a, 0, -b/a), (0, 1/c, 0), (0, 0, 1), normalised. `a` and `c` are above 0.
+    /// Where the transform takes a unit direction of the cosine: by the matrix with the rows (1/a, 0, -b/a), (0, 1/c,
+    /// 0), (0, 0, 1), normalised. `a` and `c` are above 0.
     pub fn direction(&self, cosine: DVec3) -> DVec3 {
         let Self { a, b, c } = *self;
         DVec3::new(cosine.x - b * cosine.z, a / c * cosine.y, a * cosine.z).normalize()

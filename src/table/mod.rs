@@ -7,9 +7,9 @@
 //! | `alpha` | the paper's roughness | node k of n at k/(n-1) |
 //! | `mu` | cosine between `wi` and the normal | node k of n at k/(n-1) |
 //! | `a`, `b` | inverse matrix of the transformed cosine, rows (a,0,b), (0,a,0), (0,0,1) | a >= 0; b of either sign |
-//! | `r` | albedo of the lobe, such that its lookup is right between nodes: not R itself at those of low alpha | \[0, 1\] |
+//! | `r` | albedo of the lobe, such that its lookup is right between nodes: at nodes of low alpha it is not R itself | \[0, 1\] |
 //!
-//! A .csv holds one line a node, alpha-major; a .dds holds one texel a node, x = alpha, y = mu.
+//! A .csv holds one line for each node, alpha-major; a .dds holds one texel for each node, x = alpha, y = mu.
 //!
 //! [`GgxTable`] holds the same and more for the specular base, over `(roughness, mu)`: see [`ggx`].
 //!
@@ -35,7 +35,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Most nodes that a side of a table may have. A shipped table has 32; a million cells are more than any lobe needs.
+/// Most nodes that a side of a table may have. A shipped table has 32; the million cells of the largest are more than
+/// any lobe needs.
 pub const MAX_SIDE: usize = 1024;
 
 /// Longest file that [`SheenTable::load`] reads, in bytes: room for the largest table as text.
@@ -47,24 +48,36 @@ const NODE_TOLERANCE: f64 = 1e-4;
 /// Why a table was not read. Each message is one line: what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
+    /// The file at `path` was not read because of `problem`.
     #[error("{}: {problem}", .path.display())]
     In { path: PathBuf, problem: Box<TableError> },
+    /// Opening or reading the file failed.
     #[error("cannot be read ({0}); give the path of a table's .csv or .dds")]
     Unreadable(#[from] std::io::Error),
+    /// The path leads to a folder, a device or the like.
     #[error("is no ordinary file; give the path of a table's .csv or .dds")]
     NoFile,
+    /// The file's extension is neither .csv nor .dds.
     #[error("is neither .csv nor .dds; name the table by its format")]
     UnknownExtension,
+    /// The file is longer than [`MAX_FILE_BYTES`].
     #[error("is longer than {MAX_FILE_BYTES} bytes; a table has at most {MAX_SIDE} nodes a side")]
     TooLong,
+    /// A .csv is not UTF-8 from the byte `at` on.
     #[error("byte {at} is not UTF-8 text; a table's .csv holds lines of numbers")]
     NotText { at: usize },
+    /// The line `line` of a .csv, counted from 1, does not hold the numbers that it should: see `problem`.
     #[error("line {line}: {problem}")]
     Line { line: usize, problem: String },
+    /// The lines of a .csv, taken together, do not fill a grid: see `problem`. `columns` names the columns that it
+    /// needs.
     #[error("{problem}; a table holds n x m lines of {columns}, in order of the first two, node k of n at k/(n-1)")]
     Lines { columns: String, problem: String },
+    /// A .dds does not hold the texture of a [`SheenTable`] or [`GgxTable`], or one of its texels is out of range: see
+    /// `problem`.
     #[error("{problem}; a table is one 2D texture of RGBA16F or RGBA32F with a DX10 header and no mips")]
     Dds { problem: String },
+    /// A .dds does not hold the volume of a [`SlabTable`], or one of its texels is out of range: see `problem`.
     #[error("{problem}; a slab's table is one volume of 32 x 32 x 32 texels of RGBA16F with a DX10 header and no mips")]
     Volume { problem: String },
 }
@@ -89,17 +102,17 @@ impl SheenTable {
         embedded(Self::from_csv(include_str!("../../tables/sheen_ltc.csv")))
     }
 
-    /// Reads a .csv or .dds file, told apart by its extension.
+    /// Reads a .csv or .dds file, told apart by its extension; fails with [`TableError::In`].
     ///
-    /// A file past [`MAX_FILE_BYTES`] is refused before more than that is held.
+    /// A file longer than [`MAX_FILE_BYTES`] is refused before more than that is in memory.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, TableError> {
         load(path.as_ref(), Self::from_csv, Self::from_dds)
     }
 
     /// Reads lines of `alpha,mu,a,b,r`, alpha-major.
     ///
-    /// The column names, empty lines and lines that begin with `#` may stand or be left out; spaces around numbers and
-    /// CRLF line ends do not count.
+    /// A line of column names at the top, empty lines and lines that begin with `#` are optional; spaces around numbers
+    /// and CRLF line ends do not matter.
     pub fn from_csv(text: &str) -> Result<Self, TableError> {
         Ok(Self { grid: COLUMNS.read(text)? })
     }
@@ -111,7 +124,7 @@ impl SheenTable {
         COLUMNS.write(&self.grid, header)
     }
 
-    /// Reads a 2D texture of RGBA16F or RGBA32F, x = alpha, y = mu; its A is not looked at.
+    /// Reads a 2D texture of RGBA16F or RGBA32F, x = alpha, y = mu; its A is ignored.
     pub fn from_dds(bytes: &[u8]) -> Result<Self, TableError> {
         let texture = Texture::read(bytes, 1)?;
         Ok(Self { grid: texture.grid(|[[a, b, r, _]]| [a, b, r], cell_defect)? })
@@ -132,31 +145,32 @@ impl SheenTable {
         &self.grid.cells
     }
 
-    /// `[a, b, r]` of node `(i, j)` of (alpha, mu).
+    /// `[a, b, r]` of node `(i, j)` of (alpha, mu); panics outside [`Self::size`].
     pub fn cell(&self, i: usize, j: usize) -> [f64; 3] {
         self.grid.cell(i, j)
     }
 
-    /// The largest difference to `other` over all numbers, in steps from one half-float to the next; none where the sizes differ.
+    /// The largest difference from `other` over all numbers, in steps from one half-float to the next; `None` where the
+    /// sizes differ.
     ///
-    /// One step is what rounding differently on another machine may leave.
+    /// One step may come from rounding that differs on another machine.
     pub fn half_steps(&self, other: &Self) -> Option<u32> {
         self.grid.half_steps(&other.grid, 0.0)
     }
 
-    /// `[a, b, r]` at `alpha` and `mu` in \[0, 1\] (clamped to it), bilinear between the nodes.
+    /// `[a, b, r]` at `alpha` and `mu`, which are clamped to \[0, 1\], bilinear between the nodes. Panics on NaN.
     pub fn lookup(&self, alpha: f64, mu: f64) -> [f64; 3] {
         assert!(!alpha.is_nan() && !mu.is_nan(), "lookup at alpha {alpha}, mu {mu}");
         self.grid.lookup(alpha, mu)
     }
 
-    /// What a texture takes: `[a, b, r, 1]` row by row, x = alpha, y = mu.
+    /// The texels of a texture: `[a, b, r, 1]` row by row, x = alpha, y = mu.
     pub fn texels(&self) -> Vec<[f32; 4]> {
         self.grid.by_rows().map(|[a, b, r]| [a as f32, b as f32, r as f32, 1.0]).collect()
     }
 
-    /// CRC-32 of the texels as little-endian floats: the same for a table whatever file format it came in, as long as
-    /// the numbers are the same.
+    /// CRC-32 of the texels as little-endian floats: whatever file format a table came in, it is the same as long as
+    /// the numbers are.
     pub fn checksum(&self) -> u32 {
         grid::checksum(&self.texels())
     }
@@ -164,7 +178,7 @@ impl SheenTable {
 
 const COLUMNS: Columns<3> = Columns { axes: ["alpha", "mu"], values: ["a", "b", "r"], defect: cell_defect };
 
-/// A table that is built in.
+/// Unwraps a table that is built in.
 fn embedded<T>(table: Result<T, TableError>) -> T {
     match table {
         Ok(table) => table,
@@ -193,7 +207,7 @@ fn load<T>(
     read().map_err(|problem| TableError::In { path: path.to_owned(), problem: Box::new(problem) })
 }
 
-/// What an ordinary file of bounded length holds.
+/// The bytes of an ordinary file of bounded length.
 fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(TableError::NoFile);
@@ -206,7 +220,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, TableError> {
     Ok(bytes)
 }
 
-/// Where node `k` of `n` sits.
+/// Where node `k` of `n` >= 2 sits, in \[0, 1\].
 pub fn node(k: usize, n: usize) -> f64 {
     k as f64 / (n - 1) as f64
 }
@@ -226,7 +240,7 @@ pub fn centres(n: usize) -> Vec<f64> {
 
 /// How many half-floats lie from `one` to `other`.
 fn half_steps(one: f16, other: f16) -> u32 {
-    // Without their sign, bits of halves ascend with the number.
+    // Without the sign, a half's bits ascend with its magnitude.
     let place = |value: f16| {
         let bits = i32::from(value.to_bits());
         if bits & 0x8000 == 0 { bits } else { 0x8000 - bits }

@@ -17,9 +17,10 @@
 //! | x = alpha | 45 alpha^(1/4) - 14 | ((14 + k) / 45)^4: 0.0094 to 1 |
 //! | y = mu_i, z = mu_o | 31 w^(1/3), w = mu^2 (1 + K alpha^4) / (mu^2 + K (1 - (1 - alpha^4) mu^2)), K = 16 alpha^(8/3) | where that is k |
 //!
-//! Light at mu scatters 1 / mu times and comes to know its own height where mu is near sigma^(2/3) = alpha^(4/3): there the nodes are, for
-//! the alpha of the lookup itself, not for that of a node. Linear between the nodes, whose values are fitted for it. Two modes leave
-//! 0.3% of a lobe (relative L2), three 0.05%.
+//! Light at mu scatters 1 / mu times, and its turns add up to its own elevation where mu is near
+//! sigma^(2/3) = alpha^(4/3): there the nodes are densest, for the alpha of the lookup itself, not for that of a node.
+//! Lookups are linear between the nodes, whose values are fitted for that. Two modes leave out 0.3% of a lobe
+//! (relative L2), three 0.05%.
 
 use super::{TableError, cell, half_steps};
 use crate::math::{check_cosine, cube_root};
@@ -30,16 +31,18 @@ use std::path::Path;
 /// Nodes along each axis.
 pub const SLAB_SIDE: usize = 32;
 
-/// Alpha below which the texel coordinate stands still; down from the first node, .0094, to here values are extrapolated.
+/// Alpha below which the texel coordinate stands still; from the first node, .0094, down to here values are
+/// extrapolated.
 pub const LEAST_SLAB_ALPHA: f64 = 0.005;
 
-/// Ranges of v0, v1, v2 in a table that is read; the slab's are \[-.01, 12\], \[-.01, .3\], \[-.02, .01\]. Within them nothing overflows.
+/// Ranges of v0, v1, v2 in a table that is read, within which nothing overflows. The slab's own are \[-.01, 12\],
+/// \[-.01, .3\], \[-.02, .01\].
 const RANGES: [(f64, f64); 3] = [(-1.0, 16.0), (-1.0, 1.0), (-1.0, 1.0)];
 
 /// The multiple scattering of slabs of all roughnesses, in halves.
 #[derive(Clone, PartialEq)]
 pub struct SlabTable {
-    /// v0, v1, v2; mu_o varies fastest, alpha slowest. The same with mu_i and mu_o exchanged.
+    /// v0, v1, v2; mu_o varies fastest, alpha slowest. Exchanging mu_i and mu_o changes nothing.
     cells: Vec<[f16; 3]>,
 }
 
@@ -47,11 +50,12 @@ pub struct SlabTable {
 #[derive(Clone, Debug)]
 pub struct SlabSlice {
     warp: SlabWarp,
-    /// v0, v1, v2, 0; mu_o varies fastest. In `f32`, which halves lose little in, so that all of it stays near the processor.
+    /// v0, v1, v2, 0; mu_o varies fastest. In `f32`, in which halves lose little, so that all of it stays in the
+    /// processor's cache.
     cells: Box<[[f32; 4]; SLAB_SIDE * SLAB_SIDE]>,
 }
 
-/// The modes at one place.
+/// The modes at one pair of cosines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlabModes {
     /// exp(v0) = 1 + rho_0: mode 0 of all scattering over that of single scattering.
@@ -90,20 +94,20 @@ impl SlabTable {
         super::embedded(Self::from_dds(include_bytes!("../../tables/sheen_slab.dds")))
     }
 
-    /// Reads a .dds file.
+    /// Reads a .dds file; fails with [`TableError::In`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self, TableError> {
         let path = path.as_ref();
         let table = super::read_file(path).and_then(|bytes| Self::from_dds(&bytes));
         table.map_err(|problem| TableError::In { path: path.to_owned(), problem: Box::new(problem) })
     }
 
-    /// A table of what a file holds, or which node (alpha, mu_i, mu_o) has what wrong.
+    /// The table that a file holds, or the first node (alpha, mu_i, mu_o) that is wrong, and what is wrong with it.
     pub(super) fn from_halves(cells: Vec<[f16; 3]>) -> Result<Self, ([usize; 3], String)> {
         defect(&cells).map_or(Ok(Self { cells }), Err)
     }
 
-    /// The largest difference to `other` over all numbers, in steps from one half-float to the next. Those within 1e-6 do not count:
-    /// next to 0 halves are finer than anything here is known.
+    /// The largest difference from `other` over all numbers, in steps from one half-float to the next. Differences up
+    /// to 1e-6 do not count: next to 0 halves are finer than anything here is known.
     pub fn half_steps(&self, other: &Self) -> u32 {
         let pairs = self.cells.as_flattened().iter().zip(other.cells.as_flattened());
         let apart = pairs.filter(|(one, other)| (one.to_f64() - other.to_f64()).abs() > 1e-6);
@@ -115,7 +119,7 @@ impl SlabTable {
         crc32fast::hash(&self.to_dds())
     }
 
-    /// v0, v1, v2 of node (k, i, j) of (alpha, mu_i, mu_o).
+    /// v0, v1, v2 of node (k, i, j) of (alpha, mu_i, mu_o); panics where one is not below [`SLAB_SIDE`].
     pub fn cell(&self, k: usize, i: usize, j: usize) -> [f64; 3] {
         self.halves(k, i, j).map(f16::to_f64)
     }
@@ -127,9 +131,9 @@ impl SlabTable {
 
     /// What the table says of `alpha` in (0, 1\].
     ///
-    /// Below the first node, .0094, values go on in a straight line: the lobe is off by 2% at .008, 6% at .0065, 13% at
-    /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still along the axis of mu, so that lobes fade too soon: by
-    /// 42% at .004, 85% at .002.
+    /// Below the first node, .0094, values are extrapolated linearly: the lobe is off by 2% at .008, 6% at .0065, 13% at
+    /// [`LEAST_SLAB_ALPHA`] = .005 (relative L2, mean). Below that they stand still along the axis of mu, so that lobes
+    /// fade too soon and are off by 42% at .004, 85% at .002.
     pub fn slice(&self, alpha: f64) -> SlabSlice {
         let warp = SlabWarp::new(alpha);
         let x = alpha_texel(alpha.max(LEAST_SLAB_ALPHA));
@@ -154,6 +158,7 @@ impl fmt::Debug for SlabTable {
 }
 
 impl SlabSlice {
+    /// The axis of mu for this alpha.
     #[inline]
     pub fn warp(&self) -> &SlabWarp {
         &self.warp
@@ -171,7 +176,7 @@ impl SlabSlice {
         let at = i * SLAB_SIDE + j;
         let (c00, c01) = (&self.cells[at], &self.cells[at + 1]);
         let (c10, c11) = (&self.cells[at + SLAB_SIDE], &self.cells[at + SLAB_SIDE + 1]);
-        // Equal parts stand together, so that the sum is the same when i and j are exchanged.
+        // Terms are paired so that the sum is the same to the bit when i and j are exchanged.
         let (w00, w01, w10, w11) = ((1.0 - s) * (1.0 - t), (1.0 - s) * t, s * (1.0 - t), s * t);
         let between = |m: usize| {
             let alike = w00 * f64::from(c00[m]) + w11 * f64::from(c11[m]);
@@ -214,7 +219,7 @@ impl SlabWarp {
         cube_root(self.w(mu))
     }
 
-    /// sqrt(w), in \[0, 1\], at a cosine in \[0, 1\]: proportional to it near 0.
+    /// sqrt(w), in \[0, 1\], at a cosine in \[0, 1\]: proportional to the cosine near 0.
     #[inline]
     pub fn root(&self, mu: f64) -> f64 {
         self.w(mu).sqrt()
@@ -254,17 +259,17 @@ impl SlabWarp {
     }
 }
 
-/// Alpha at a texel coordinate, that of node k at k.
+/// Alpha at a texel coordinate; node k is at coordinate k.
 pub fn slab_alpha(texel: f64) -> f64 {
     ((14.0 + texel) / 45.0).powi(4)
 }
 
-/// Where `alpha` > 0 is in units of the nodes; below 0 before the first.
+/// The texel coordinate of `alpha` > 0; it is negative before the first node.
 fn alpha_texel(alpha: f64) -> f64 {
     45.0 * alpha.sqrt().sqrt() - 14.0
 }
 
-/// The first node (alpha, mu_i, mu_o) with something wrong, and what.
+/// The first node (alpha, mu_i, mu_o) that is wrong, and what is wrong with it.
 fn defect(cells: &[[f16; 3]]) -> Option<([usize; 3], String)> {
     let n = SLAB_SIDE;
     cells.iter().enumerate().find_map(|(index, cell)| {

@@ -8,7 +8,7 @@ use half::f16;
 const TEXEL_BYTES: usize = 8;
 
 impl SlabTable {
-    /// Reads a volume of 32 x 32 x 32 texels of RGBA16F, x = alpha, y = mu_i, z = mu_o; its A is not looked at.
+    /// Reads a volume of 32 x 32 x 32 texels of RGBA16F, x = alpha, y = mu_i, z = mu_o; its A is ignored.
     pub fn from_dds(bytes: &[u8]) -> Result<Self, TableError> {
         from_dds(bytes).map_err(|problem| TableError::Volume { problem })
     }
@@ -68,7 +68,7 @@ fn from_dds(bytes: &[u8]) -> Result<SlabTable, String> {
     })
 }
 
-/// Sees whether the headers describe one plain volume of the right size and format.
+/// Checks that the headers describe one plain volume of the right size and format.
 fn check(dds: &Dds) -> Result<(), String> {
     let header = &dds.header;
     let Some(header10) = &dds.header10 else {

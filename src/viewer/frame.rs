@@ -9,10 +9,11 @@ use crate::picture::DisplayImage;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::SheenTable;
 
-/// Samples a pixel of screenshots, and of the window where there is hardware to draw it.
+/// Samples per pixel of screenshots, and of the window where there is hardware to draw it.
 const SAMPLES: u32 = 4;
 
-/// Samples a pixel of the window on a software driver, where four cost twice as much: a drag is followed first.
+/// Samples per pixel of the window on a software driver, where four cost twice as much and following a drag comes
+/// first.
 const SAMPLES_IN_SOFTWARE: u32 = 1;
 
 /// What became of a frame.
@@ -145,7 +146,7 @@ impl Frame {
     ) {
         let size_in_pixels = [self.configuration.width, self.configuration.height];
         let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
-        // No paint callbacks are used, so there are no command buffers of theirs.
+        // No paint callbacks are used, so that there are no command buffers from them to submit.
         self.egui.update_buffers(&self.gpu.device, &self.gpu.queue, encoder, jobs, &screen);
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("egui"),

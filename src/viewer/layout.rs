@@ -1,4 +1,4 @@
-//! Where panel and picture stand, and what dragging in the picture does.
+//! Where panel and picture are placed, and what dragging in the picture does.
 
 use egui::{PointerButton, Rect, Sense, Ui};
 use glam::Vec2;
@@ -6,7 +6,7 @@ use glam::Vec2;
 use super::panel;
 use super::state::{Change, State};
 
-/// What a pass over the user interface has found.
+/// The outcome of a pass over the user interface.
 pub struct Layout {
     /// Where the picture is, in points.
     pub picture: Rect,
@@ -20,7 +20,7 @@ impl Default for Layout {
     }
 }
 
-/// Lays out the window's content and takes over what the user does.
+/// Lays out the window's content and applies what the user does to `state`.
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let panel = egui::Panel::right("panel").exact_size(panel::WIDTH).resizable(false);
     let outcome = panel.show(ui, |ui| panel::show(ui, state)).inner;
@@ -75,7 +75,7 @@ mod tests {
         State::new("test.glb", scene)
     }
 
-    /// What a pass finds after these events, and after how many seconds the next one is wanted.
+    /// The outcome of a pass after these events, and after how many seconds egui wants the next one.
     fn pass(context: &egui::Context, state: &mut State, events: Vec<Event>) -> (Layout, f64) {
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 720.0)));
         let input = RawInput { screen_rect, events, ..RawInput::default() };
@@ -101,7 +101,7 @@ mod tests {
         passes.into_iter().map(|events| pass(context, state, events).0.change).max().unwrap()
     }
 
-    /// The state with all that the panel can show of materials, whose names are the same.
+    /// A state in which the panel shows everything it can show of materials; both materials have the same name.
     fn full_state() -> State {
         let mut state = state();
         state.scene.materials.push(state.scene.materials[0].clone());

@@ -42,11 +42,11 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
         ui.label("C_sheen");
         color_button(ui, &mut sheen.color);
     });
-    // A material that has no sheen keeps none until a colour is given to it.
+    // A material without sheen stays without until it is given a colour.
     if Some(sheen) == before || (before.is_none() && sheen.color == Vec3::ZERO) {
         return Change::None;
     }
-    // A layer of no weight would show nothing of what is changed.
+    // With a weight of 0 nobody would see the change.
     if sheen.weight == 0.0 {
         sheen.weight = 1.0;
     }
@@ -54,7 +54,7 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
     Change::Scene
 }
 
-/// What the settings change in the material. What is not touched stays open.
+/// What the settings change in the material. What the user does not touch is left unset.
 fn overrides(ui: &mut Ui, state: &mut State) -> Change {
     let index = state.material;
     let before = state.settings.overrides_of(index);
@@ -66,7 +66,7 @@ fn overrides(ui: &mut Ui, state: &mut State) -> Change {
     let mut layering = state.settings.layering_of(index);
     ui.horizontal(|ui| {
         ui.label("layering");
-        // What is picked from the list has the share that is there.
+        // Picking manual from the list keeps the share that is set already.
         let manual = if let Layering::Manual(share) = layering { share } else { MANUAL };
         let layerings = [
             ("glTF", Layering::Gltf),

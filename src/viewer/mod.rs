@@ -1,6 +1,6 @@
 //! A window to explore a scene in: winit and egui around the renderer.
 //!
-//! The picture stands beside the panel, never under it, and is drawn only when something has changed.
+//! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
 mod frame;
 mod layout;
@@ -18,22 +18,26 @@ use crate::renderer::{DeviceError, RenderError};
 use crate::scene::Scene;
 use crate::table::SheenTable;
 
-/// The window could not be opened, or not kept.
+/// The window could not be opened, or could not go on.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
+    /// There is no display to open a window on.
     #[error("no display ({0})")]
     NoDisplay(String),
+    /// The display does not give the window what it needs: an event loop, a surface, a format.
     #[error("the window cannot be used ({0}): use `velour render`")]
     Window(String),
+    /// No graphics device could be opened.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// The scene could not be taken to the device or drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
 }
 
-/// Connects to the display.
+/// Connects to the display; [`ViewerError::NoDisplay`] where there is none.
 pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
-    // winit's own words name the line of its source.
+    // winit's own message names a line of its source.
     EventLoop::new().map_err(|error| match error {
         EventLoopError::NotSupported(error) => ViewerError::NoDisplay(error.to_string()),
         EventLoopError::Os(_) | EventLoopError::RecreationAttempt | EventLoopError::ExitFailure(_) => {
@@ -42,7 +46,8 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     })
 }
 
-/// Shows the scene, which is called `name`, until the window is closed.
+/// Shows the scene, under the title `name`, until the window is closed. Panics where the scene has no camera or no
+/// material.
 pub fn run(event_loop: EventLoop<()>, name: &str, scene: Scene, table: SheenTable) -> Result<(), ViewerError> {
     let mut app = window::App::new(state::State::new(name, scene), table);
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;

@@ -6,7 +6,7 @@ use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use crate::scene::{Camera, Projection};
 
-/// A little short of straight up and down, where the azimuth would lose its meaning.
+/// Largest elevation, a little short of straight up and down, where the azimuth would lose its meaning.
 const STEEPEST: f32 = FRAC_PI_2 - 0.01;
 
 /// The state of the orbiting camera; y is up.
@@ -23,12 +23,12 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Starts where the camera stands; the target is the point of its axis nearest to `center`. A camera's roll is lost.
+    /// Starts at the camera; the target is the point on its axis that is nearest to `center`. A camera's roll is lost.
     pub fn new(camera: &Camera, center: Vec3) -> Self {
         let eye = camera.world_from_camera.w_axis.truncate();
         let back = camera.world_from_camera.z_axis.truncate();
         let distance = (eye - center).dot(back);
-        // A camera that looks away from the scene turns around a point before it.
+        // A camera that looks away from the scene turns around a point in front of it.
         let distance = if distance > 0.0 { distance } else { eye.distance(center).max(1e-3) };
         let elevation = back.y.clamp(-1.0, 1.0).asin().clamp(-STEEPEST, STEEPEST);
         Self {
@@ -40,12 +40,12 @@ impl Orbit {
         }
     }
 
-    /// The view from here.
+    /// The camera in its present place.
     pub fn camera(&self) -> Camera {
         let axes = self.axes();
         let eye = self.target + self.distance * axes.z_axis;
         let projection = match self.projection {
-            // The near plane keeps its distance from the target, and depth is precise however far it reaches.
+            // The near plane must not reach the target; depth is precise even without a far plane.
             Projection::Perspective { yfov, near, .. } => {
                 Projection::Perspective { yfov, near: near.min(0.01 * self.distance), far: f32::INFINITY }
             }
@@ -56,7 +56,7 @@ impl Orbit {
         Camera { name: "orbit".to_owned(), world_from_camera, projection }
     }
 
-    /// Turns by a drag of this many view heights, to the right and down. A view height is half a turn.
+    /// Turns by a drag of this many view heights, to the right and down. One view height is half a turn.
     pub fn turn(&mut self, drag: Vec2) {
         self.azimuth = (self.azimuth - drag.x * 0.5 * TAU).rem_euclid(TAU);
         self.elevation = (self.elevation + drag.y * 0.5 * TAU).clamp(-STEEPEST, STEEPEST);
@@ -68,14 +68,14 @@ impl Orbit {
         self.target += self.view_height() * (drag.y * axes.y_axis - drag.x * axes.x_axis);
     }
 
-    /// Goes nearer by this factor (> 1) or farther (< 1).
+    /// Goes nearer by this factor where it is above 1, or farther where it is below. Panics unless it is above 0.
     pub fn zoom(&mut self, factor: f32) {
         assert!(factor > 0.0, "a zoom factor is positive, not {factor}");
         let size = match &mut self.projection {
             Projection::Orthographic { ymag, .. } => ymag,
             Projection::Perspective { .. } => &mut self.distance,
         };
-        // As far as floats serve scenes of any size.
+        // Limits within which floats still serve, for scenes of any size.
         *size = (*size / factor).clamp(1e-9, 1e12);
     }
 

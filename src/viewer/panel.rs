@@ -7,7 +7,7 @@ use super::material;
 use super::state::{Change, State};
 use crate::picture::ToneCurve;
 
-/// Points; wide enough for the longest row.
+/// The panel's width in points, enough for the longest row.
 pub const WIDTH: f32 = 270.0;
 
 /// The strongest ambient light that can be set.
@@ -20,7 +20,7 @@ pub struct Outcome {
     pub screenshot: bool,
 }
 
-/// Lays the panel out and takes over what was changed in it.
+/// Lays the panel out and applies what is changed in it to `state`.
 pub fn show(ui: &mut Ui, state: &mut State) -> Outcome {
     let mut outcome = Outcome::default();
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -86,7 +86,7 @@ fn picture(ui: &mut Ui, state: &mut State) -> Change {
     }
 }
 
-/// Strength and hue of what arrives from everywhere.
+/// Strength and hue of the ambient light.
 fn ambient(ui: &mut Ui, radiance: &mut Vec3) {
     let before = *radiance;
     let (mut strength, mut color) = strength_and_color(before);
@@ -101,13 +101,14 @@ fn ambient(ui: &mut Ui, radiance: &mut Vec3) {
     *radiance = changed_radiance(before, strength, color);
 }
 
-/// A radiance as its greatest channel and the hue of it, whose greatest channel is 1. The hue of nothing is white.
+/// A radiance as its greatest channel and its hue, whose greatest channel is 1. The hue of black is white.
 fn strength_and_color(radiance: Vec3) -> (f32, Vec3) {
     let strength = radiance.max_element();
     (strength, if strength > 0.0 { radiance / strength } else { Vec3::ONE })
 }
 
-/// The radiance of this strength and hue; as it was where it differs by no more than a round trip takes.
+/// The radiance of this strength and hue; `before` where it differs from that by no more than the rounding of a round
+/// trip.
 fn changed_radiance(before: Vec3, strength: f32, color: Vec3) -> Vec3 {
     let radiance = strength * color / color.max_element().max(1e-6);
     if (radiance - before).abs().max_element() > 1e-5 * strength.max(1e-6) { radiance } else { before }
@@ -161,7 +162,7 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) -> Change {
     change
 }
 
-/// A slider that changes nothing until it is touched: what a file says is not rounded.
+/// A slider that changes nothing until it is touched: values from a file are not rounded.
 pub fn slider(ui: &mut Ui, slider: egui::Slider) {
     ui.add(slider.clamping(egui::SliderClamping::Edits));
 }

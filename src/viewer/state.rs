@@ -6,16 +6,16 @@ use super::orbit::Orbit;
 use crate::picture::ToneCurve;
 use crate::scene::{Instance, Light, Material, Scene, Settings, Sheen};
 
-/// What a change asks for, from least to most.
+/// What a change makes necessary, from least to most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Change {
     #[default]
     None,
-    /// The tone curve: what was drawn is shown anew.
+    /// The tone curve has changed: what was drawn is shown again.
     Shown,
-    /// The view, the exposure, the ambient light, or which lobes are summed: the scene is drawn anew.
+    /// The view, the exposure, the ambient light, or which lobes are summed has changed: the scene is drawn again.
     Drawn,
-    /// Materials, what the settings change in them, or lights: they are taken over by the device first.
+    /// Materials, what the settings change in them, or lights have changed: they are sent to the device first.
     Scene,
 }
 
@@ -31,12 +31,12 @@ pub struct State {
     pub material: usize,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
-    /// What the last command did: a screenshot's name, or why there is none.
+    /// What became of the last command: a screenshot's name, or why there is none.
     pub message: String,
     loaded: Loaded,
 }
 
-/// What of the scene the user may change, as it was.
+/// Those parts of the scene that the user may change, as they were loaded.
 struct Loaded {
     materials: Vec<Material>,
     lights: Vec<Light>,
@@ -44,7 +44,7 @@ struct Loaded {
 }
 
 impl State {
-    /// The scene has at least one camera and one material.
+    /// The state right after loading. Panics where the scene has no camera or no material.
     pub fn new(name: &str, scene: Scene) -> Self {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
         let has_sheen = |sheen: Option<Sheen>| sheen.is_some_and(|sheen| sheen.color.max_element() > 0.0);
@@ -65,7 +65,7 @@ impl State {
         }
     }
 
-    /// Everything as it was loaded.
+    /// Puts everything back as it was loaded.
     pub fn reset(&mut self) {
         let mut scene = std::mem::take(&mut self.scene);
         let Loaded { materials, lights, instances } = &self.loaded;

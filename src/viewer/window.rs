@@ -20,9 +20,9 @@ use crate::table::SheenTable;
 pub(super) struct App {
     state: State,
     table: SheenTable,
-    /// From the first `resumed` on.
+    /// There from the first `resumed` on.
     open: Option<Open>,
-    /// Why the loop was left, if not by the user.
+    /// Why the loop was left, if that was not the user's doing.
     pub failure: Option<ViewerError>,
 }
 
@@ -30,7 +30,7 @@ struct Open {
     window: Arc<Window>,
     frame: Frame,
     egui: egui_winit::State,
-    /// What the passes over the user interface since the last frame have found.
+    /// The joint outcome of the passes over the user interface since the last frame.
     pending: Pending,
 }
 
@@ -69,7 +69,7 @@ impl App {
         Ok(Open { window, frame, egui, pending: Pending { change: Change::Scene, ..Default::default() } })
     }
 
-    /// Lets egui see the events so far and takes over what the user did.
+    /// Lets egui see the events so far and keeps what they lead to.
     fn pass(&mut self) {
         let Some(open) = &mut self.open else { return };
         let input = open.egui.take_egui_input(&open.window);
@@ -154,8 +154,8 @@ impl ApplicationHandler for App {
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
-        // Of what happens between two passes egui sees the result. On a slow driver that may be a whole drag, so each
-        // press and release gets a pass of its own.
+        // egui sees only the result of what happens between two passes. On a slow driver that may be a whole drag, so
+        // each press and each release gets a pass of its own.
         let button = matches!(event, WindowEvent::MouseInput { .. });
         if button {
             self.pass();
@@ -179,7 +179,7 @@ impl ApplicationHandler for App {
                 open.pending.change = open.pending.change.max(Change::Drawn);
                 open.window.request_redraw();
             }
-            // To RedrawRequested egui always answers that it wants to be repainted: heeding that would never rest.
+            // egui answers every RedrawRequested by asking for a repaint: heeding that, the window would never rest.
             _ if response.repaint => open.window.request_redraw(),
             _ => {}
         }

@@ -1,4 +1,5 @@
-//! The models of the base, specular and diffuse: that they sample what they say, keep energy, and are the table and the facets.
+//! The models of the base, specular and diffuse: their samples have the density that they state, they conserve energy,
+//! and they agree with the table and the facets.
 
 use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
@@ -13,10 +14,10 @@ use velour::models::{Bsdf, Ggx, Lambert, LtcGgx, Sample, Schlick};
 use velour::physics::microfacet;
 use velour::table::GgxTable;
 
-/// (roughness, mu) of lobes that the bins can tell.
+/// (roughness, mu) of lobes that the bins can tell apart.
 const CELLS: [(f64, f64); 7] = [(0.4, 0.9), (0.4, 0.3), (0.55, 0.02), (0.6, 0.6), (0.8, 0.1), (1.0, 1.0), (1.0, 0.4)];
 
-/// `wi` of a cell stands across the axes.
+/// The azimuth of `wi`, along neither of the axes.
 const AZIMUTH: f64 = 2.2;
 
 fn plastic() -> Schlick {
@@ -35,14 +36,14 @@ fn all(roughness: f64) -> [(&'static str, Box<dyn Bsdf>); 3] {
 const ELEVATIONS: usize = 24;
 const AZIMUTHS: usize = 32;
 
-/// The bin of a direction: the square of its sine and its azimuth, in equal parts.
+/// The bin of a direction, in equal steps of its cosine and of its azimuth from `wi`.
 fn bin(wo: DVec3) -> usize {
     let phi = (wo.y.atan2(wo.x) - AZIMUTH).rem_euclid(TAU) / TAU;
     let part = |x: f64, parts: usize| ((x * parts as f64) as usize).min(parts - 1);
     part(wo.z, ELEVATIONS) * AZIMUTHS + part(phi, AZIMUTHS)
 }
 
-/// The integral of a function of directions over each bin, by Gauss nodes that gather at the horizon in the lowest.
+/// The integral of a function of directions over each bin, by Gauss nodes that are densest at each bin's lower edge.
 fn integrals(value: impl Fn(DVec3) -> f64) -> Vec<f64> {
     let mut integrals = vec![0.0; ELEVATIONS * AZIMUTHS];
     for (at, integral) in integrals.iter_mut().enumerate() {
@@ -58,7 +59,8 @@ fn integrals(value: impl Fn(DVec3) -> f64) -> Vec<f64> {
     integrals
 }
 
-/// Of the samples of one model under the density of another; none of a sample is a cell of its own.
+/// The probability of the samples of one model under the density of another; calls that give no sample have a cell of
+/// their own.
 fn probability(sampled: &dyn Bsdf, said: &dyn Bsdf, mu: f64) -> f64 {
     let wi = direction(mu, AZIMUTH);
     let mut rng = Pcg64::seed_from_u64(71);
@@ -108,7 +110,7 @@ fn samples_and_their_weights_say_what_evaluation_says() {
                     };
                     let what = format!("{name}, roughness {roughness}, wi {wi}, wo {wo}");
                     assert!((wo.length() - 1.0).abs() < 1e-9 && wo.z > 0.0, "{what}");
-                    // Of a sharp lobe, the directions' last digits are worth more.
+                    // In a sharp lobe, the directions' last digits count for more.
                     let near = |one: f64, other: f64| (one - other).abs() <= 1e-6 * other;
                     assert!(near(pdf, model.pdf(wi, wo)), "{what}: {pdf}, {}", model.pdf(wi, wo));
                     assert!(near(weight * pdf, model.evaluate(wi, wo)), "{what}: {weight}");
@@ -133,7 +135,7 @@ fn mean_weights_are_albedos() {
             let weights: Vec<f64> = (0..n).map(weight).collect();
             let mean = weights.iter().sum::<f64>() / f64::from(n);
             let variance = weights.iter().map(|weight| (weight - mean).powi(2)).sum::<f64>() / f64::from(n);
-            // The facets' shares are linear between nodes: 1e-3 of them.
+            // The facets' shares are interpolated linearly, which errs by up to 1e-3 of them.
             let error = (variance / f64::from(n)).sqrt() + 3e-4 * mean;
             assert_within(mean, model.albedo(mu), error, 4.0, &format!("{name}, roughness {roughness}, mu {mu}"));
         }
@@ -152,7 +154,7 @@ fn a_mirror_in_a_white_furnace_is_not_seen() {
                 let at = format!("roughness {roughness}, mu {mu}, f0 {f0}, f90 {f90}: {both:?}");
                 assert!(both.iter().all(|albedo| (0.0..1.0 + 1e-12).contains(albedo)), "{at}");
                 assert!(f0 < 1.0 || f90 < 1.0 || both.iter().all(|albedo| *albedo > 1.0 - 1e-12), "{at}");
-                // Where R dips next to the horizon the table is off most; its mean is a hundredth of that.
+                // The table is off most where R dips next to the horizon; on average it is off by a hundredth of that.
                 assert!((both[0] - both[1]).abs() < if mu == 0.0 { 0.07 } else { 0.02 }, "{at}");
             }
         }
@@ -165,7 +167,7 @@ fn facets_are_mirrors_of_schlicks_reflectance() {
     let [black, white] = [(0.0, 1.0), (1.0, 1.0)].map(|(f0, f90)| Ggx::new(0.5, Schlick::new(f0, f90)));
     let cosine = wi.dot((wi + wo).normalize());
     let lobe = microfacet::Ggx::from_roughness(0.5).lobe(wi, wo);
-    // Without f0 nothing is made up for.
+    // Without f0 there is nothing to compensate for.
     assert!((black.evaluate(wi, wo) / (lobe * (1.0 - cosine).powi(5)) - 1.0).abs() < 1e-12);
     let reflected = microfacet::Ggx::from_roughness(0.5).reflected(0.4).albedo;
     assert!((white.evaluate(wi, wo) / (lobe / reflected) - 1.0).abs() < 1e-3);

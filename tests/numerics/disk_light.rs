@@ -1,11 +1,11 @@
-//! Disks of EXT_lights_area, which are polygons, against disks.
+//! Disks of EXT_lights_area, which are polygons here, against true disks.
 
 use glam::{DMat3, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use velour::reference::polygon::form_factor;
 
-/// A disk of radius 1 as a scene has it, in the plane z = 0.
+/// A disk of radius 1 as a scene holds it, in the plane z = 0.
 fn disk() -> Vec<DVec3> {
     let light = r#"{"lights":[{"type":"disk","size":2}]}"#;
     let node = r#"{"extensions":{"EXT_lights_area":{"light":0}}}"#;
@@ -15,7 +15,7 @@ fn disk() -> Vec<DVec3> {
     scene.lights[0].polygons[0].contours[0].iter().map(|corner| corner.as_dvec3()).collect()
 }
 
-/// So fine that what is left is a thousandth of the difference that is looked for.
+/// A circle so fine that its own error is a thousandth of the difference that is looked for.
 fn circle() -> Vec<DVec3> {
     (0..4096)
         .map(|corner| -std::f64::consts::TAU * f64::from(corner) / 4096.0)
@@ -40,8 +40,8 @@ fn a_disk_of_32_sides_lights_as_a_disk() {
             return point;
         }
     };
-    // The cosine itself, and lobes of a sheen (a, b of the table), the last as sharp as they come; with bounds a little
-    // above what was found, which fall with the square of the number of sides.
+    // The cosine itself, and lobes of a sheen (a, b of the table), the last as sharp as they come. The bounds are a
+    // little above what was found; the errors fall with the square of the number of sides.
     let lobes = [(1.0, 0.0), (0.6, -0.2), (0.15, -0.8)];
     let bounds = [6e-4, 1.3e-3, 1.1e-2];
     let mut worst = [0.0f64; 3];

@@ -1,4 +1,4 @@
-//! Explicit fibres: that they are planted and met as said, and that the slab is what they scatter once.
+//! Explicit fibres: they are planted and met as their documentation says, and their single scattering is the slab's.
 
 use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
@@ -16,7 +16,7 @@ use velour::physics::transport::{Resolution, Transport};
 
 const SIGMAS: [f64; 6] = [1.0, 0.9999, 0.64, 0.16, 0.04, 0.001];
 
-/// Fibres so thick that their own size would show, were extinction only that of thin ones.
+/// Fibres so thick that it would show if only thin ones had the slab's extinction.
 fn planting(alpha: f64, diameter: f64) -> Planting {
     Planting { alpha, diameter, length: 0.7, seed: 5 }
 }
@@ -27,7 +27,7 @@ fn normals_of_the_fibres_are_those_of_the_flakes() {
         let (axes, medium) = (Axes::new(sigma), Sggx::new(sigma));
         for degrees in [0.0_f64, 1.0, 20.0, 45.0, 70.0, 85.0, 89.0, 90.0] {
             let (s, m_z) = degrees.to_radians().sin_cos();
-            // c = s sin(t) takes the root's pole away; panels gather where p is steep.
+            // c = s sin(t) removes the pole of the root; panels are narrow where p is steep.
             let edges = [0.0, 0.5, 0.8, 0.9, 0.97, 0.99, 0.997, 0.999, 0.9997, 1.0].map(|edge| FRAC_PI_2 * edge);
             let nodes = edges.windows(2).flat_map(|edge| gauss_legendre(40, edge[0], edge[1]));
             let integral: f64 = nodes.map(|(t, weight)| weight * axes.density((s * t.sin()).min(1.0))).sum();
@@ -48,7 +48,7 @@ fn shares_below_are_the_densitys() {
             let slope = (other - one) / 2e-5 / 2.0;
             assert!((slope / axes.density(c) - 1.0).abs() < 1e-5, "sigma {sigma}, c {c}");
         }
-        // With c = 1 - v^3: panels gather where the shares rise.
+        // With c = 1 - v^3 nodes are dense where the shares rise.
         for (v, weight) in gauss_legendre(80, 0.0, 1.0) {
             mean += 3.0 * v * v * weight * (1.0 - axes.share_below(1.0 - v.powi(3)));
         }
@@ -56,7 +56,7 @@ fn shares_below_are_the_densitys() {
     }
 }
 
-/// Mean and standard error.
+/// The mean of some values, and its standard error.
 fn mean(values: &[f64]) -> [f64; 2] {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -76,7 +76,7 @@ fn the_sampled_fibres_are_seen_as_the_slab_sees_its_flakes() {
             let [seen, error] = mean(&seen);
             assert_within(seen, medium.extinction(mu), error, 4.0, &format!("sigma {sigma}, mu {mu}"));
         }
-        // The 10 tenths of the distribution hold a tenth each.
+        // Each tenth of the distribution holds a tenth of the axes.
         let mut counts = [0; 10];
         sampled.iter().for_each(|axis| counts[((axes.share_below(axis.z.min(1.0)) * 10.0) as usize).min(9)] += 1);
         let p = chi_square(&counts, &[0.1; 10], 1e-12);
@@ -84,8 +84,8 @@ fn the_sampled_fibres_are_seen_as_the_slab_sees_its_flakes() {
     }
 }
 
-/// Shares of rays from anywhere in the layer that a fibre stops within `reach`, with cosines to the normal -`mu` and `mu`, and the number of rays.
-/// Rays start where they cannot leave the layer.
+/// The share of rays that a fibre stops within `reach`, and the number of rays. They have cosines to the normal of
+/// -`mu` and `mu`, and start anywhere in the layer from where they cannot leave it.
 fn stopped(patch: &Patch, mu: f64, reach: f64, seed: u64) -> (f64, f64) {
     let rays = 20_000;
     let mut rng = Pcg64::seed_from_u64(seed);
@@ -102,7 +102,7 @@ fn stopped(patch: &Patch, mu: f64, reach: f64, seed: u64) -> (f64, f64) {
     (stopped as f64 / f64::from(rays), f64::from(rays))
 }
 
-/// How many standard errors rays are from the slab's extinction, the worst of some directions.
+/// How many standard errors rays are off the slab's extinction, in the worst of some directions.
 fn extinction_off(patch: &Patch, slab: &Slab) -> f64 {
     let cells = [0.0, 0.3, 0.6, 0.9, 1.0].into_iter().flat_map(|mu| [(mu, 0.3), (mu, 0.9)]);
     let off = cells.enumerate().par_bridge().map(|(index, (mu, reach))| {
@@ -113,19 +113,19 @@ fn extinction_off(patch: &Patch, slab: &Slab) -> f64 {
     off.reduce(|| 0.0, f64::max)
 }
 
-/// There are so many more fibres than rays that these are nearly independent.
+/// So many more fibres than rays that the rays are nearly independent.
 const FIBRES: usize = 100_000;
 
 #[test]
 fn extinction_is_the_slabs_for_thin_fibres_and_thick_ones() {
     for (alpha, diameter) in [(0.2, 0.01), (0.5, 0.01), (1.0, 0.01), (0.5, 0.15)] {
         let off = extinction_off(&Patch::new(&planting(alpha, diameter), FIBRES), &Slab::new(alpha));
-        // Of ten cells, for a chance of 6e-4 each.
+        // Ten cells, each with a chance of 6e-5.
         assert!(off < 4.0, "alpha {alpha}, diameter {diameter}: {off:.1} standard errors");
     }
 }
 
-/// The patch of a planting, its fibres changed.
+/// The patch of a planting, with its fibres changed.
 fn changed(planting: &Planting, change: impl Fn(usize, Fibre) -> Option<Fibre>) -> Patch {
     let patch = Patch::new(planting, FIBRES);
     let inside = |fibre: &&Fibre| [fibre.middle.x, fibre.middle.y].iter().all(|x| (0.0..patch.period()).contains(x));
@@ -148,13 +148,13 @@ fn wrong_fibres_are_told() {
 const ELEVATIONS: usize = 24;
 const AZIMUTHS: usize = 16;
 
-/// Bins of the cosine's cube root, fine at the horizon, and of the azimuth.
+/// The bin of a direction, by the cosine's cube root, fine at the horizon, and by the azimuth.
 fn bin(w: DVec3) -> usize {
     let part = |x: f64, parts: usize| ((x * parts as f64) as usize).min(parts - 1);
     part((w.z.cbrt() + 1.0) / 2.0, ELEVATIONS) * AZIMUTHS + part(w.y.atan2(w.x).rem_euclid(TAU) / TAU, AZIMUTHS)
 }
 
-/// The integral over each bin of the phase function of light that goes along `along`.
+/// The integral over each bin of the phase function, for light that goes along `along`.
 fn phase_shares(medium: &Sggx, along: DVec3) -> Vec<f64> {
     let share = |at: usize| {
         let (low, first) = ((at / AZIMUTHS) as f64, (at % AZIMUTHS) as f64 * TAU / AZIMUTHS as f64);
@@ -203,11 +203,11 @@ fn the_tree_finds_what_a_search_finds() {
                 let origin = size * DVec3::from_array([(); 3].map(|()| uniform(&mut rng)));
                 let mut along = unit_sphere(&mut rng);
                 if k % 8 == 0 {
-                    // Exactly, and nearly, along planes of boxes.
+                    // Exactly or nearly parallel to planes of boxes.
                     along[k / 8 % 3] = [0.0, -0.0, 1e-9, -1e-9][k / 24 % 4];
                     along = along.normalize();
                 }
-                // From the ball, what lies beyond its cube is not sought.
+                // The ball's tree finds nothing beyond its cube.
                 let reach = (0..3).map(|axis| {
                     (if along[axis] > 0.0 { size[axis] - origin[axis] } else { -origin[axis] }) / along[axis]
                 });
@@ -223,7 +223,7 @@ fn the_tree_finds_what_a_search_finds() {
 
 #[test]
 fn sides_have_no_seam() {
-    // Fibres longer than the patch is wide, too.
+    // With fibres longer than the patch is wide, too.
     for (count, length) in [(40, 0.5), (200, 0.7), (3, 3.0)] {
         let planting = Planting { alpha: 0.8, diameter: 0.1, length, seed: 4 };
         let patch = Patch::new(&planting, count);
@@ -256,7 +256,7 @@ fn sides_have_no_seam() {
             else {
                 panic!("a path is interrupted")
             };
-            // Mirrors of small radius spread what round-off there is, tenfold or more each.
+            // Each mirror, having a small radius, enlarges round-off tenfold or more.
             if scatterings <= 4 {
                 assert!(scatterings == many && (one - other).length() < 1e-3, "{origin} {along}: {one} {other}");
                 scattered += usize::from(scatterings > 1);
@@ -293,7 +293,7 @@ fn thin_fibres_reflect_as_the_slab_and_thick_ones_more() {
         goniometer.measure(&patch).albedo()
     });
     assert_within(thin[0], slab.albedo(0.5), thin[1], 3.0, "thin fibres");
-    // A ruler that tells the one from the other: light goes back by the way that it came, which is free.
+    // The ruler tells the two apart: light goes back by the way that it came, which is free.
     assert!((thick[0] - slab.albedo(0.5)) / thick[1] > 3.0, "{thick:?}, {}", slab.albedo(0.5));
 }
 
@@ -322,7 +322,7 @@ fn a_ball_is_planted_as_a_patch_is() {
                 let distance = exit.origin.length();
                 assert!(distance > radius - 1e-9 && distance < radius + thickness + 1e-9, "{exit:?}");
                 assert!((exit.direction.length() - 1.0).abs() < 1e-12 && exit.scatterings > 0);
-                // From there, nothing is met.
+                // Going on from there, a ray meets nothing.
                 let on = ball.trace(exit.origin + 1e-9 * exit.direction, exit.direction);
                 assert_eq!(on, Fate::Missed, "{exit:?}");
             }
@@ -338,7 +338,7 @@ fn a_ball_is_planted_as_a_patch_is() {
         assert_eq!(counts[0], 0, "{counts:?}");
         let share = counts[2] as f64 / f64::from(rays);
         let [flat, _] = Goniometer { mu, paths: 20_000, seed: 9 }.measure(&patch).albedo();
-        // From a convex layer light leaves more easily: twice its thickness in radii, 0.03, or less.
+        // Light leaves a convex layer more easily: by twice its thickness in radii, 0.03, or less.
         assert!((-0.02..0.08).contains(&(share / flat - 1.0)), "mu {mu}: {share}, {flat}");
     }
     assert_eq!(ball.trace(DVec3::new(3.0, 0.0, 0.0), DVec3::X), Fate::Missed);

@@ -22,7 +22,7 @@ fn lobes(alpha: f64) -> Lobes {
     Lobes::new(Transport::new(Slab::new(alpha), Resolution::default()))
 }
 
-/// A quadrature as fine as the narrowest of [`SOME`] asks for.
+/// A quadrature as fine as the narrowest of [`SOME`] needs.
 fn hemisphere() -> Hemisphere {
     Hemisphere::new(Transport::new(Slab::new(0.05), Resolution { modes: 1, ..Default::default() }).cosines())
 }
@@ -32,7 +32,7 @@ fn density_integrates_to_one() {
     let hemisphere = hemisphere();
     for ltc in SOME {
         let integral = hemisphere.integral(|node| ltc.density(hemisphere.nodes[node]));
-        // The quadrature's error, largest for the narrowest.
+        // The quadrature's error, which is largest for the narrowest.
         assert!((integral - 1.0).abs() < 1e-3, "{ltc:?}: {integral}");
     }
 }
@@ -116,7 +116,7 @@ fn a_fit_is_the_minimum_from_wherever_it_starts() {
 
 #[test]
 fn bilinear_albedos_are_found_again() {
-    // What the table can hold exactly, r must be, within the pull towards the nodes, which agrees.
+    // Where the table can hold R exactly, r must be R; the pull towards R at the nodes agrees with that.
     let n = 5;
     let plane = |alpha: f64, mu: f64| alpha * (0.7 - 0.5 * mu);
     let positions = Albedos::samples(n);
@@ -158,7 +158,7 @@ fn small_fit_obeys_the_conventions() {
         all_steps.store(all, Ordering::Relaxed);
     });
     let all = all_steps.into_inner();
-    assert_eq!((calls.into_inner(), most.into_inner()), (all, all), "every step is told, and none too many");
+    assert_eq!((calls.into_inner(), most.into_inner()), (all, all), "each step is reported once");
     for i in 0..5 {
         for j in 0..5 {
             let [a, b, r] = table.cell(i, j);

@@ -1,4 +1,4 @@
-//! The specular base's table: its lookup and its files, bad ones among them.
+//! The specular base's table: its lookup and its files, including bad ones.
 
 use half::f16;
 use velour::math::sine;
@@ -20,7 +20,7 @@ fn lookup_is_bilinear_in_roughness_and_t() {
     let table = small();
     let [roughness, t] = [0.25, 0.5];
     let mu = 1.0 - t * t;
-    // Between the first four nodes, k = 0 to 3, at the middle.
+    // In the middle between the first four nodes, k = 0 to 3.
     let [u, v, s] = [0.15, -0.045, 0.45];
     let lobe = table.lookup(roughness, mu);
     let Ltc { a, b, c } = lobe.ltc;
@@ -34,7 +34,7 @@ fn lookup_is_bilinear_in_roughness_and_t() {
         assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
     }
     assert_eq!(table.lookup(-3.0, 7.0), table.lookup(0.0, 1.0));
-    // Below the least cosine the mirror's part stands still.
+    // Below the least cosine the mirror's part no longer changes.
     let a = |mu: f64| table.lookup(0.0, mu).ltc.a * 0.4_f64.powi(2);
     assert!((a(0.0) - (GRAZING_MU * GRAZING_MU + 0.1)).abs() < 1e-12);
 }
@@ -47,7 +47,7 @@ fn a_table_that_falls_below_0_keeps_its_matrix_invertible() {
 
 #[test]
 fn densities_are_what_samples_have() {
-    // Weights uniform / density average the hemisphere's solid angle, as far as samples reach.
+    // Uniform numbers from a regular grid, so that nothing is random.
     for ltc in [Ltc { a: 1.0, b: 0.0, c: 1.0 }, Ltc { a: 0.6, b: 0.5, c: 1.7 }] {
         let n = 400;
         let places = |k: usize| (k as f64 + 0.5) / f64::from(n);
@@ -56,7 +56,8 @@ fn densities_are_what_samples_have() {
             let samples = (0..count).flat_map(|i| (0..count).map(move |j| [places(i), places(j)]));
             samples.map(|uniforms| ltc.sample(uniforms)).map(value).sum::<f64>() / f64::from(n * n)
         };
-        // Any function over the density has its integral for mean: here z / pi, whose integral is 1, and x z.
+        // The mean of any function over the density is its integral: here of z / pi, which is 1, and of y z, which is
+        // 0.
         let found = mean(&|wo| wo.z / std::f64::consts::PI / ltc.density(wo));
         assert!((found - 1.0).abs() < 2e-3, "{ltc:?}: {found}");
         let across = mean(&|wo| wo.y * wo.z / ltc.density(wo));
@@ -130,7 +131,7 @@ fn bad_textures_are_refused_and_none_panics() {
     for length in 0..good.len() {
         error(&good[..length]);
     }
-    // Heights that two parts don't share, or that leave one node a part.
+    // Heights that cannot be split into two parts, or that leave each part a single node.
     for height in [0, 1, 2, 3, 5, 4096, u32::MAX] {
         let mut bytes = good.clone();
         bytes[12..16].copy_from_slice(&height.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Table files that must be refused: with one line that says what, where and what to do, and without a panic.
+//! Table files that must be refused without a panic, with one line that says what is wrong, where, and what to do.
 
 use std::path::Path;
 use velour::table::{MAX_FILE_BYTES, SheenTable};
@@ -114,7 +114,7 @@ fn textures_of_other_kinds_are_refused() {
     for array in [0, 2, u32::MAX] {
         assert!(dds_error(&texture_with(140, array)).contains("array"), "{array}");
     }
-    // No DX10 header: DXT1, so that the former header counts as texels.
+    // No DX10 header: with DXT1, what used to be that header counts as texels.
     assert!(dds_error(&texture_with(84, u32::from_le_bytes(*b"DXT1"))).contains("without a DX10 header"));
 }
 
@@ -160,11 +160,11 @@ fn bad_files_are_named() {
     assert!(error(&path("bytes.csv")).contains("byte 4 is not UTF-8"));
     std::fs::write(path("text.dds"), ROWS).expect("writing in the test's folder");
     assert!(error(&path("text.dds")).contains("no .dds texture"));
-    // Sparse: it takes no room on the disk.
+    // Sparse, so that it takes no room on the disk.
     let huge = std::fs::File::create(path("huge.dds")).expect("a file in the test's folder");
     huge.set_len(MAX_FILE_BYTES + 1).expect("a sparse file");
     assert!(error(&path("huge.dds")).contains("is longer than"));
-    // A pipe that nobody writes to would be waited for.
+    // Reading from a socket or a pipe that nobody writes to would never end.
     #[cfg(unix)]
     {
         let socket = std::os::unix::net::UnixListener::bind(path("socket.csv")).expect("a socket in the test's folder");

@@ -1,4 +1,4 @@
-//! Rulers for models: bins of directions, and whether samples have the density that is said.
+//! Rulers for models: bins of directions, and whether samples have the density that a model states.
 
 use crate::direction;
 use crate::statistics::chi_square;
@@ -11,10 +11,10 @@ use velour::math::warp::uniform;
 use velour::models::Bsdf;
 use velour::table::SlabWarp;
 
-/// `wi` of a test stands across the axes.
+/// The azimuth of `wi` in tests, along neither of the axes.
 pub const AZIMUTH: f64 = 2.2;
 
-/// What elevations are equal steps of.
+/// The variable in which bins of elevation are equal steps.
 enum Axis {
     Slab(SlabWarp),
     CubeRoot,
@@ -33,7 +33,8 @@ impl Bins {
         Self { axis: Axis::Slab(SlabWarp::new(alpha)), elevations: 31, azimuths: 16 }
     }
 
-    /// Along the cube root of the cosine; a density that is constant in cells of a divisor of these numbers is integrated exactly.
+    /// Along the cube root of the cosine. Densities that are constant in cells whose numbers divide these are
+    /// integrated exactly.
     pub fn of_cube_root(elevations: usize, azimuths: usize) -> Self {
         Self { axis: Axis::CubeRoot, elevations, azimuths }
     }
@@ -67,7 +68,8 @@ impl Bins {
         }
     }
 
-    /// The integral of a function of directions over each bin: halves of it, towards the horizon thinner parts, times Gauss nodes.
+    /// The integral of a function of directions over each bin, by Gauss nodes on its halves or, at the horizon, on ever
+    /// thinner parts.
     pub fn integrals(&self, value: impl Fn(DVec3) -> f64) -> Vec<f64> {
         let mut integrals = vec![0.0; self.elevations * self.azimuths];
         let width = TAU / self.azimuths as f64;
@@ -93,7 +95,7 @@ impl Bins {
         integrals
     }
 
-    /// Probability that samples of one model lie as far from the density of the other as they do.
+    /// The probability that samples of a density as `said` lie as far from it as those of `sampled` do.
     pub fn probability(&self, sampled: &dyn Bsdf, said: &dyn Bsdf, mu: f64) -> f64 {
         let wi = direction(mu, AZIMUTH);
         let mut rng = Pcg64::seed_from_u64(31);
@@ -102,18 +104,18 @@ impl Bins {
             let sample = sampled.sample(wi, [(); 2].map(|()| uniform(&mut rng))).expect("a lobe");
             counts[self.index(sample.wo)] += 1;
         }
-        // The quadrature's error: a tenth of the noise.
+        // The quadrature's error is a tenth of the noise.
         chi_square(&counts, &self.integrals(|wo| said.pdf(wi, wo)), 2e-4)
     }
 }
 
-/// What a call that must panic says.
+/// The message of a call that must panic.
 pub fn message(wrong: &(dyn Fn() + std::panic::RefUnwindSafe)) -> String {
     let caught = std::panic::catch_unwind(wrong).expect_err("a mistake");
     caught.downcast_ref::<String>().expect("a message").clone()
 }
 
-/// Mistakes in calls of a model are told.
+/// Fails unless a model panics on mistakes in its calls.
 pub fn assert_calls_are_checked(model: &(dyn Bsdf + std::panic::RefUnwindSafe)) {
     let up = direction(0.5, 0.0);
     for wrong in [DVec3::NAN, DVec3::ZERO, up * 1.01, DVec3::new(f64::INFINITY, 0.0, 0.5)] {

@@ -1,4 +1,4 @@
-//! The numbers: the medium, the slab, its walk, the fit, the table and its files.
+//! The numbers: the medium, the slab, its walk, the fit, the tables and their files, the models.
 //!
 //! Statistical tests have fixed seeds. A chi-square test fails where its probability falls below `SIGNIFICANCE`, and a
 //! comparison of means where it is off by more than the stated number of standard errors.

@@ -11,7 +11,7 @@ use velour::physics::sggx::Sggx;
 const SIGMAS: [f64; 4] = [1.0, 0.25, 0.04, 1.0 / (31.0 * 31.0)];
 const COSINES: [f64; 5] = [1.0, 0.6, 0.05, 1e-3, -0.3];
 
-/// Edges over [from, to] that close in on `center` by halves, down to 2^-`halvings` of the way.
+/// Edges over [from, to] that approach `center`, halving the distance each time, down to 2^-`halvings` of the way.
 fn graded(from: f64, to: f64, center: f64, halvings: i32) -> Vec<f64> {
     let steps = |end: f64| (0..=halvings).map(move |k| center + (end - center) * 0.5_f64.powi(k));
     let mut edges: Vec<f64> = steps(from).chain([center]).chain(steps(to)).collect();
@@ -20,7 +20,7 @@ fn graded(from: f64, to: f64, center: f64, halvings: i32) -> Vec<f64> {
     edges
 }
 
-/// Bins of directions by elevation angle and |azimuth|, fine around the way straight on, where the phase function is.
+/// Bins of directions by elevation angle and |azimuth|, fine around straight on, where the phase function has its peak.
 struct Bins {
     elevations: Vec<f64>,
     azimuths: Vec<f64>,
@@ -35,7 +35,7 @@ impl Bins {
         }
     }
 
-    /// The phase function's integral over each bin, `nodes` Gauss nodes a side.
+    /// The phase function's integral over each bin, with `nodes` Gauss nodes along each side.
     fn integrals(&self, medium: &Sggx, back: DVec3, nodes: usize) -> Vec<f64> {
         let mut integrals = Vec::new();
         for elevation in self.elevations.windows(2) {
@@ -43,7 +43,7 @@ impl Bins {
                 let mut sum = 0.0;
                 for (e, e_weight) in gauss_legendre(nodes, elevation[0], elevation[1]) {
                     for (phi, phi_weight) in gauss_legendre(nodes, azimuth[0], azimuth[1]) {
-                        // Twice for the mirrored half.
+                        // Twice, for the mirrored half.
                         let measure = 2.0 * e.cos() * e_weight * phi_weight;
                         sum += measure * medium.phase(back, direction(e.sin(), phi));
                     }
@@ -75,7 +75,7 @@ fn phase_function_is_normalised() {
         for mu in COSINES {
             let (medium, back) = (Sggx::new(sigma), direction(mu, 0.0));
             let integral: f64 = Bins::around(back, 16).integrals(&medium, back, 12).iter().sum();
-            // The innermost bins, where the flakes' density jumps from direction to direction, leave this much.
+            // The error of the innermost bins, where the flakes' density jumps from direction to direction.
             assert!((integral - 1.0).abs() < 2e-5, "sigma {sigma}, mu {mu}: {integral}");
         }
     }
@@ -99,7 +99,7 @@ fn extinction_is_the_flakes_projected_area() {
                 }
             }
             let extinction = medium.extinction(mu);
-            // The kink of max(0, .) under both rules.
+            // Both rules err at the kink of max(0, .).
             assert!((area / extinction - 1.0).abs() < 1e-4, "sigma {sigma}, mu {mu}: {area} against {extinction}");
         }
     }

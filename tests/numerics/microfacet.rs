@@ -1,4 +1,4 @@
-//! GGX microfacets: that their formulas are each other's, and their albedos those of samples.
+//! GGX microfacets: their formulas agree with each other, and their albedos with samples.
 
 use crate::direction;
 use crate::statistics::assert_within;
@@ -50,7 +50,7 @@ fn lobes_are_reciprocal() {
 
 #[test]
 fn the_density_of_samples_is_the_lobes_but_for_shadowing() {
-    // f_r mu_o / pdf = G2 / G1 = (1 + Lambda_i) / (1 + Lambda_i + Lambda_o), with Lambda as H has it.
+    // f_r mu_o / pdf = G2 / G1 = (1 + Lambda_i) / (1 + Lambda_i + Lambda_o), with Heitz' Lambda (2014).
     for (alpha, mu) in cells().filter(|(_, mu)| *mu > 0.0) {
         let ggx = Ggx::new(alpha);
         let lambda = |mu: f64| ((1.0 + alpha * alpha * (1.0 / (mu * mu) - 1.0)).sqrt() - 1.0) / 2.0;
@@ -68,7 +68,8 @@ fn albedos_in_closed_form_are_found() {
     // alpha = 1, mu = 1: D = 1 / pi, f_r mu_o = mu_o / (2 pi (1 + mu_o)), whose integral is 1 - ln 2.
     assert!((Ggx::new(1.0).reflected(1.0).albedo - (1.0 - LN_2)).abs() < 1e-12);
     for alpha in ALPHAS {
-        // Along the surface every visible facet reflects upwards, and nothing is shadowed that was not masked.
+        // For light along the surface, every visible facet reflects upwards, and nothing is shadowed that was not
+        // masked.
         assert!((Ggx::new(alpha).reflected(0.0).albedo - 1.0).abs() < 1e-12, "alpha {alpha}");
     }
 }
@@ -104,8 +105,8 @@ fn the_quadrature_is_fine_enough() {
         let found = ggx.reflected(mu).albedo;
         assert!((found - fine).abs() < 1e-5, "alpha {alpha}, mu {mu}: {found}, {fine}");
         let coarse: f64 = ggx.quadrature(mu, [4, 4]).iter().map(|node| node.weight * node.lobe).sum();
-        assert!(mu == 0.0 || alpha > 0.3 || (coarse - fine).abs() > 1e-8, "the ruler tells coarse ones: {alpha}, {mu}");
-        // Solid angles are those of the hemisphere, where the distribution reaches all of it.
+        assert!(mu == 0.0 || alpha > 0.3 || (coarse - fine).abs() > 1e-8, "a coarse quadrature passes: {alpha}, {mu}");
+        // Solid angles add up to the hemisphere's where the distribution reaches all of it.
         let whole: f64 = ggx.quadrature(mu, [40, 40]).iter().map(|node| node.weight).sum();
         assert!(alpha < 0.1 || (whole / (2.0 * PI) - 1.0).abs() < 1e-5, "alpha {alpha}, mu {mu}: {whole}");
     });
@@ -120,7 +121,7 @@ fn nodes_hold_the_lobe_in_their_direction() {
             let half: DVec3 = (wi + node.wo).normalize();
             assert!((wi.dot(half) - node.cosine).abs() < 1e-9, "alpha {alpha}, mu {mu}");
             let lobe = ggx.lobe(wi, node.wo);
-            // Half vectors from nearly opposite directions lose digits that a sharp distribution asks for.
+            // Half vectors of nearly opposite directions lose digits that a sharp distribution needs.
             assert!((lobe / node.lobe - 1.0).abs() < 1e-6, "alpha {alpha}, mu {mu}: {lobe}, {}", node.lobe);
         }
     }

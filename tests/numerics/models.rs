@@ -1,4 +1,5 @@
-//! The models: that they sample what they say, keep energy, and are the slab.
+//! The models of the sheen: their samples have the density that they state, they conserve energy, and they are the
+//! slab.
 
 use crate::direction;
 use crate::lobes::{AZIMUTH, Bins, assert_calls_are_checked, message};
@@ -84,7 +85,8 @@ fn no_more_light_comes_back_than_came() {
         for (name, model) in both(alpha) {
             for mu in (0..=100).map(|k| (f64::from(k) / 100.0).powi(4)) {
                 let albedo = model.albedo(mu);
-                // The slab's, towards alpha = 0 at the horizon, stays below; the table's r is fitted for what lies between nodes.
+                // The slab's stays below this even towards alpha = 0 at the horizon; the table's r is fitted to what
+                // lies between nodes.
                 let most = if name == "slab" { 0.96 } else { 1.0 };
                 assert!((0.0..=most).contains(&albedo), "{name}, alpha {alpha}, mu {mu}: {albedo}");
             }
@@ -132,7 +134,7 @@ fn mean_weights_are_albedos() {
             .collect();
         let mean = weights.iter().sum::<f64>() / f64::from(n);
         let variance = weights.iter().map(|weight| (weight - mean).powi(2)).sum::<f64>() / f64::from(n);
-        // Its own error is 1e-4 of it.
+        // The albedo's own error is 1e-4 of it.
         let error = (variance / f64::from(n)).sqrt() + 1e-4 * mean;
         assert_within(mean, model.albedo(mu), error, 4.0, &format!("alpha {alpha}, mu {mu}"));
         assert!(variance.sqrt() < 0.2 * mean, "alpha {alpha}, mu {mu}: {}", variance.sqrt() / mean);
@@ -152,10 +154,10 @@ fn the_slab_is_reciprocal() {
             least_ltc = least_ltc.min(there_and_back(&ltc(alpha)));
         }
     }
-    assert!(least_ltc < 0.9, "the ruler tells that the transformed cosine is not: {least_ltc}");
+    assert!(least_ltc < 0.9, "the transformed cosine passes for reciprocal: {least_ltc}");
 }
 
-/// Relative L2 distance of the model's lobe to the solved slab's, and relative error of its albedo.
+/// Relative L2 distance of the model's lobe from the solved slab's, and relative error of its albedo.
 fn distance(model: &SlabSheen, truth: &Transport, hemisphere: &Hemisphere, mu: f64) -> [f64; 2] {
     let wi = direction(mu, 0.0);
     let [mut square, mut norm] = [0.0; 2];
@@ -169,7 +171,7 @@ fn distance(model: &SlabSheen, truth: &Transport, hemisphere: &Hemisphere, mu: f
 
 #[test]
 fn the_slab_is_the_solved_one() {
-    // Between the table's alphas, at odds with them.
+    // Between the table's alphas, in steps unrelated to them.
     let alphas: Vec<f64> = (0..14).map(|k| ((19.3 + 1.81 * f64::from(k)) / 45.0).powi(4)).collect();
     assert!(alphas[0] > 1.0 / 31.0 && alphas[13] < 1.0);
     let found = alphas.par_iter().map(|&alpha| {
@@ -179,7 +181,7 @@ fn the_slab_is_the_solved_one() {
         let (model, other) = (slab(alpha), slab(alpha * 1.02));
         let found: Vec<[f64; 2]> = mus.map(|mu| distance(&model, &truth, &hemisphere, mu)).collect();
         let told = distance(&other, &truth, &hemisphere, 0.05)[0];
-        assert!(told > 0.01, "alpha {alpha} is taken for 2% more: {told:.1e}");
+        assert!(told > 0.01, "alpha {alpha} passes for 2% more: {told:.1e}");
         found
     });
     let found: Vec<[f64; 2]> = found.collect::<Vec<_>>().concat();
@@ -215,7 +217,7 @@ fn only_the_angle_between_azimuths_counts() {
                 [model.evaluate(wi, wo), model.pdf(wi, wo)]
             };
             let still = value(0.0);
-            // mu = 1 has no azimuth: its frame is the surface's.
+            // mu = 1 has no azimuth: there the frame is the surface's.
             for turn in [1.0, PI, 5.5] {
                 for (one, other) in value(turn).into_iter().zip(still) {
                     assert!((one / other - 1.0).abs() < 1e-10, "{name}, alpha {alpha}, mu {mu}: {one}, {other}");
@@ -272,7 +274,7 @@ fn mistakes_of_the_caller_are_told() {
     let models: [&(dyn Bsdf + std::panic::RefUnwindSafe); 2] = [&slab, &ltc];
     let up = direction(0.5, 0.0);
     models.into_iter().for_each(assert_calls_are_checked);
-    // Directions of f32 are unit enough.
+    // Directions rounded to f32 are close enough to unit length.
     let rough = up.as_vec3().as_dvec3();
     assert!(models.iter().all(|model| model.evaluate(rough, rough) > 0.0));
 }

@@ -1,4 +1,5 @@
-//! The models of prior work: that they are what their papers say, sample what they say, and where they create light.
+//! The models of prior work: they are what their papers say, their samples have the density that they state, and where
+//! they create light.
 
 use crate::direction;
 use crate::lobes::{AZIMUTH, Bins, assert_calls_are_checked, message};
@@ -28,13 +29,13 @@ fn all(alpha: f64) -> [(&'static str, Model); 5] {
 const CELLS: [(f64, f64); 9] =
     [(0.0, 1e-3), (0.05, 0.02), (0.1, 0.0), (0.15, 0.3), (0.2, 2e-4), (0.3, 0.5), (0.5, 0.2), (0.7, 1.0), (1.0, 0.05)];
 
-/// Cells of the sampler's in elevation, and all around: bins along them integrate its density exactly.
+/// Bins that are the sampler's own cells in elevation and all around: its density is integrated exactly over them.
 fn bins() -> Bins {
     Bins::of_cube_root(24, 32)
 }
 
-/// Worked out from the papers' formulas with angles, apart from the library, for (0.8, 0, 0.6) = a, (0, 0.96, 0.28) = b, (-0.8, 0, 0.6) = c and
-/// (0.48, 0.64, 0.6) = d: Burley's, and for each alpha those of the others.
+/// Values worked out from the papers' formulas with angles, independently of the library, between (0.8, 0, 0.6) = a,
+/// (0, 0.96, 0.28) = b, (-0.8, 0, 0.6) = c and (0.48, 0.64, 0.6) = d: Burley's, and for each alpha those of the others.
 #[test]
 fn values_are_those_of_the_papers() {
     let [a, b, c, d] = [[0.8, 0.0, 0.6], [0.0, 0.96, 0.28], [-0.8, 0.0, 0.6], [0.48, 0.64, 0.6]].map(DVec3::from_array);
@@ -93,7 +94,7 @@ fn values_are_those_of_the_papers() {
             let expected = [burley, values[0], values[1], values[2], values[3]];
             for ((name, model), expected) in all(alpha).iter().zip(expected) {
                 let value = model.evaluate(wi, wo);
-                // The digits that are given.
+                // To the digits that are given.
                 let close = (value - expected).abs() <= 1e-9 * expected + 1e-16;
                 assert!(close, "{name}, alpha {alpha}, {wi}, {wo}: {value:.9e}, {expected:.9e}");
             }
@@ -135,7 +136,7 @@ fn another_density_is_told() {
     assert!(bins().probability(other.as_ref(), burley.1.as_ref(), 0.2) < REJECTED);
 }
 
-/// Largest relative error that albedos are documented to have.
+/// The largest relative error that a model's documentation allows its albedos.
 fn albedo_error(name: &str) -> f64 {
     match name {
         "burley" | "neubelt_pettineo" => 1.5e-3,
@@ -171,7 +172,7 @@ fn largest(name: &str, alphas: [f64; 2]) -> f64 {
     alphas.into_par_iter().map(albedo).reduce(|| 0.0, f64::max)
 }
 
-/// What a white furnace shows: of each model the largest albedo, which is what its documentation says.
+/// What a white furnace shows: the largest albedo of each model is the one that its documentation states.
 #[test]
 fn most_models_keep_the_furnace_and_one_does_not() {
     for (name, alphas, expected) in [
@@ -261,7 +262,7 @@ fn who_is_reciprocal_and_who_is_not() {
     let [burley, neubelt_pettineo, conty_kulla, soft, patry] = off;
     let reciprocal = [burley, neubelt_pettineo, conty_kulla, patry_scaled];
     assert!(reciprocal.iter().all(|off| *off < 1e-11), "{reciprocal:?}");
-    assert!(soft > 0.3 && patry > 0.3, "the ruler tells what is not: {soft}, {patry}");
+    assert!(soft > 0.3 && patry > 0.3, "models that are not reciprocal pass: {soft}, {patry}");
 }
 
 #[test]
@@ -351,7 +352,7 @@ fn mistakes_of_the_caller_are_told() {
     assert_calls_are_checked(&NeubeltPettineo::new(0.3));
     assert_calls_are_checked(&ContyKulla::new(0.3, Terminator::Soft));
     assert_calls_are_checked(&Patry::new(0.3));
-    // Directions of f32 are unit enough.
+    // Directions rounded to f32 are close enough to unit length.
     let rough = direction(0.5, 0.7).as_vec3().as_dvec3() * (1.0 + 4e-6);
     assert!(all(0.3).iter().skip(1).all(|(_, model)| model.evaluate(rough, rough) > 0.0));
     assert!(all(0.3).iter().all(|(_, model)| model.evaluate(DVec3::Z * (1.0 + 4e-6), rough) >= 0.0));

@@ -34,6 +34,6 @@ fn what_is_out_of_range_is_told() {
         let (coarsest, truth) = (solve(alpha, 1, 0.25), solve(alpha, 1, 1.0));
         assert!((coarsest.albedo(0.3) / truth.albedo(0.3) - 1.0).abs() < 0.02, "alpha {alpha}");
     }
-    // Allowed by the slab, but no solver's: it is told before memory is taken.
+    // A slab may be so, but the solver cannot solve it: it refuses before it takes memory.
     assert!(std::panic::catch_unwind(|| solve(1e-6, 1, 1.0)).is_err());
 }

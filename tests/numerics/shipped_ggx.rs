@@ -9,7 +9,7 @@ use velour::physics::microfacet::{Ggx, LEAST_ALPHA};
 use velour::table::ggx::GRAZING_MU;
 use velour::table::{GgxTable, Ltc, centres, node};
 
-/// L1 distance of the lobe at `mu` over its albedo and what is looked up.
+/// L1 distance between the lobe at `mu` over its albedo and what is looked up.
 fn error(table: &GgxTable, roughness: f64, mu: f64) -> f64 {
     let nodes = Ggx::from_roughness(roughness).quadrature(mu, QUADRATURE);
     distance(&nodes, albedo(&nodes), table.lookup(roughness, mu).ltc)
@@ -76,14 +76,15 @@ fn a_sharp_lobe_points_where_a_mirror_does() {
     let table = GgxTable::embedded();
     for roughness in [0.0_f64, 0.02, 0.05, 0.08] {
         let alpha = (roughness * roughness).max(LEAST_ALPHA);
-        // Between the nodes above all.
+        // Mostly between the nodes.
         for mu in (1..200).map(|k| f64::from(k) / 200.0).filter(|mu| *mu > 20.0 * alpha && *mu > GRAZING_MU) {
             let Ltc { a, b, c } = table.lookup(roughness, mu).ltc;
-            // Where M^-1 wo is the axis, the density is greatest for a narrow lobe.
+            // A narrow lobe's density is greatest where M^-1 wo is the axis.
             let peak = DVec3::new(-b / a, 0.0, 1.0).normalize();
             let off = peak.dot(DVec3::new(mu, 0.0, sine(mu)));
             assert!(off.abs() < 0.5 * alpha, "roughness {roughness}, mu {mu}: {off} off, {alpha} wide");
-            // The facets' slopes are alpha wide, directions twice that; a sixteenth of a cell's bend.
+            // The facets' slopes are alpha wide, directions twice that; interpolation within a cell adds a sixteenth of
+            // its bend.
             assert!((2.0 * alpha * c - 1.0).abs() < 0.07, "roughness {roughness}, mu {mu}: {}", 2.0 * alpha * c);
         }
     }
@@ -91,7 +92,7 @@ fn a_sharp_lobe_points_where_a_mirror_does() {
 
 #[test]
 fn nothing_is_lost_between_the_nodes() {
-    // What is looked up, against the best matrix for the very place.
+    // What is looked up against the matrix that is best at that very place.
     let table = GgxTable::embedded();
     let roughnesses: Vec<f64> = (0..9).map(|k| 0.02 + 0.119 * f64::from(k)).collect();
     let extra: Vec<f64> = roughnesses

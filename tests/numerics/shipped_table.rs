@@ -50,8 +50,8 @@ fn header_tells_how_it_was_made() {
     assert!(text.lines().any(|line| line.starts_with("# Relative L2 error of the lobe")), "the errors");
 }
 
-/// The largest distance of a node's value from the middle of its two neighbours, along alpha or mu, over the nodes with
-/// alpha > 0 where all three have r above `least_r`, and which are not below node `corner` in both axes.
+/// The largest distance of a node's value from the mean of its two neighbours', along alpha or mu, over the nodes with
+/// alpha > 0 where all three have r above `least_r`, and which are not below node `corner` along both axes.
 fn bumpiness(table: &SheenTable, least_r: f64, corner: usize, value: impl Fn([f64; 3]) -> f64) -> f64 {
     let mut largest = 0.0_f64;
     for k in 1..NODES {
@@ -69,11 +69,12 @@ fn bumpiness(table: &SheenTable, least_r: f64, corner: usize, value: impl Fn([f6
     largest
 }
 
-/// Largest [`bumpiness`] of ln(a), b, r where r > 1e-3: the lobe's own turn at (2/31, 2/31). The fit of r makes it uneven at the corner.
+/// Largest [`bumpiness`] of ln(a), b, r where r > 1e-3, which is due to the lobe's own bend at (2/31, 2/31). At the
+/// corner, the fit makes r uneven.
 const SMOOTH: [f64; 3] = [0.12, 0.025, 0.05];
 const CORNER_OF_R: usize = 5;
 
-/// The same for all nodes. At (1/31, 2/31) ln(a) bends sharply, where the lobe goes dark one node from the horizon.
+/// The same for all nodes. ln(a) bends sharply at (1/31, 2/31), where the lobe goes dark one node from the horizon.
 const SMOOTH_IN_THE_DARK: [f64; 3] = [0.2, 0.025, 0.05];
 
 fn bumpinesses(table: &SheenTable, least_r: f64) -> [f64; 3] {
@@ -109,7 +110,8 @@ fn a_node_out_of_line_is_told() {
 fn the_table_is_what_the_code_makes() {
     let (table, report) = sheen(NODES, |_, _| ());
     let shipped = SheenTable::embedded();
-    // Bits are the same on one machine; others round matrix products otherwise, though hardly in the header's four digits.
+    // On one machine all bits are the same; others round matrix products differently, but hardly in the header's four
+    // digits.
     assert!(shipped.half_steps(&table).is_some_and(|steps| steps <= 1), "velour fit makes another table");
     let text = include_str!("../../tables/sheen_ltc.csv");
     let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
@@ -127,7 +129,7 @@ fn the_table_is_what_the_code_makes() {
 #[test]
 fn r_leaves_the_albedo_where_that_rises_steeply() {
     let table = SheenTable::embedded();
-    // Smallest and largest r / R at nodes with R > 1e-3, and mu > 0.
+    // The smallest and the largest r / R at nodes with R > 1e-3 and mu > 0.
     let ratios = |i: usize| {
         let solution = solve(i);
         let pairs = (1..NODES).map(|j| (table.cell(i, j)[2], solution.albedo(j as f64 / 31.0)));
@@ -145,7 +147,8 @@ fn r_leaves_the_albedo_where_that_rises_steeply() {
 
 #[test]
 fn albedos_agree_with_fresh_walks() {
-    // Where bilinear interpolation is good, at points between the nodes, with bounds of their own on what it leaves.
+    // At points between the nodes where bilinear interpolation is good; each has a bound of its own on what that
+    // misses.
     let table = SheenTable::embedded();
     for (alpha, mu, bend) in
         [(0.95, 0.55, 1e-3), (0.62, 0.37, 2e-3), (0.45, 0.21, 4e-3), (0.33, 0.11, 6e-3), (0.25, 0.4, 6e-3)]

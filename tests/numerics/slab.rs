@@ -28,7 +28,7 @@ fn single_scattering_is_reciprocal() {
         let slab = Slab::new(alpha);
         let (wi, wo) = (DVec3::new(0.6, 0.0, 0.8), DVec3::new(-0.3, 0.95, 0.0_f64).normalize());
         let wo = (wo + DVec3::Z * 0.01).normalize();
-        // f_r itself is symmetric: times mu_i here, times mu_o there.
+        // f_r itself is symmetric, and each of these is f_r mu_i mu_o.
         let (there, back) = (slab.single_scattering(wi, wo) * wi.z, slab.single_scattering(wo, wi) * wo.z);
         assert!((there / back - 1.0).abs() < 1e-12, "alpha {alpha}: {there}, {back}");
     }
@@ -40,7 +40,8 @@ fn single_scattering_is_finite_at_the_horizon() {
     let (grazing, up) = (DVec3::X, DVec3::Z);
     assert_eq!(slab.single_scattering(up, grazing), 0.0);
     assert_eq!(slab.single_scattering(grazing, grazing), 0.0);
-    // A_i is infinite: all light scatters at the top, half of it by flakes at 45 degrees: K / extinction(0).
+    // A_i is infinite: all light scatters at the very top, and K / extinction(0) of it upwards, by flakes at 45
+    // degrees.
     let limit = slab.medium().kernel(grazing, up);
     assert!((slab.single_scattering(grazing, up) / limit - 1.0).abs() < 1e-12);
 }
@@ -65,7 +66,7 @@ fn single_scattering_albedo_is_the_integral() {
                 }
             }
             let albedo = slab.single_scattering_albedo(mu);
-            // This quadrature's own error, largest where the lobe is thinnest.
+            // This quadrature's own error, which is largest where the lobe is thinnest.
             let tolerance = if alpha < 0.03 { 1e-4 } else { 3e-6 };
             assert!((integral / albedo - 1.0).abs() < tolerance, "alpha {alpha}, mu {mu}: {integral}, {albedo}");
         }

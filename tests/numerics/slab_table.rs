@@ -1,4 +1,4 @@
-//! The slab's table: its file, its axes, and that it is what the code makes.
+//! The slab's table: its file, its axes, and whether it is what the code makes.
 
 use half::f16;
 use std::path::Path;
@@ -8,7 +8,8 @@ use velour::table::{LEAST_SLAB_ALPHA, MAX_FILE_BYTES, SLAB_SIDE, SheenTable, Sla
 
 const HEADER_BYTES: usize = 148;
 
-/// Most half steps between a layer as solved and the shipped table's of node `k`.
+/// The largest difference, in steps of half-floats, between a solved layer and the shipped table's at node `k` of
+/// alpha.
 fn apart(table: &SlabTable, k: usize, layer: &[[f64; 3]]) -> u32 {
     let n = SLAB_SIDE;
     let mut cells: Vec<[f64; 3]> = (0..n.pow(3)).map(|at| table.cell(at / (n * n), at / n % n, at % n)).collect();
@@ -33,7 +34,7 @@ fn the_shipped_table_is_what_the_code_makes() {
     let velour::fit::Errors { mean, median, max } = report.lobe;
     let figure = format!("{} lobes off the nodes | mean {mean:.4}, median {median:.4}, max {max:.4}", report.cells);
     assert!(include_str!("../../README.md").contains(&figure), "README.md does not say '{figure}'");
-    // Mean .0019, greatest .0074 of a lobe; R .0014 and .0086.
+    // Lobes have a mean error of .0019 and a greatest of .0074; R has .0014 and .0086.
     assert!(report.cells > 200 && report.lobe.mean < 0.0022 && report.lobe.max < 0.009, "{report}");
     assert!(report.albedo.mean < 0.0017 && report.albedo.max < 0.01, "{report}");
 }
@@ -43,7 +44,7 @@ fn one_thread_makes_the_same_layer_and_another_alpha_is_told() {
     let shipped = SlabTable::embedded();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of threads");
     for k in [9, 26] {
-        // The same bits as among the many on several threads.
+        // One thread gives the same bits as several.
         assert_eq!(pool.install(|| layer(slab_alpha(k as f64))), layer(slab_alpha(k as f64)));
         assert!(apart(&shipped, k, &pool.install(|| layer(slab_alpha(k as f64)))) <= 1, "alpha's node {k}");
         assert!(apart(&shipped, k, &layer(slab_alpha(k as f64) * 0.999)) > 1, "another alpha than that of node {k}");
@@ -64,7 +65,7 @@ fn the_file_is_the_table() {
     let halves: Vec<f64> = texel.chunks(2).map(|half| f16::from_le_bytes([half[0], half[1]]).to_f64()).collect();
     let [v0, v1, v2] = table.cell(x, y, z);
     assert_eq!(halves, [v0, v1, v2, 1.0]);
-    assert!(v0 != table.cell(y, x, z)[0] && v0 != table.cell(z, y, x)[0], "axes exchanged are told");
+    assert!(v0 != table.cell(y, x, z)[0] && v0 != table.cell(z, y, x)[0], "exchanged axes would pass");
 }
 
 #[test]
@@ -95,7 +96,7 @@ fn axes_run_there_and_back() {
             before = root;
             let place = warp.place(mu);
             assert!((SlabWarp::root_from_place(place) / root - 1.0).abs() < 1e-12, "alpha {alpha}, mu {mu}");
-            // Where w is 1 but for round-off, its inverse divides by that.
+            // Where w is 1 but for round-off, its inverse divides by that round-off.
             let limit = if root < 0.999 { 1e-11 } else { 1e-6 };
             assert!((warp.mu(root) / mu - 1.0).abs() < limit, "alpha {alpha}, mu {mu}: {}", warp.mu(root));
             let step = 1e-5 * mu;
@@ -117,7 +118,7 @@ fn lookup_is_linear_along_each_axis_and_symmetric() {
             assert!((modes.first - v1).abs() < 1e-6 && (modes.second - v2).abs() < 1e-6, "node ({k}, {i}, {j})");
         }
     }
-    // In the middle of a cell: the mean of its corners.
+    // In the middle of a cell of alpha: the mean of its corners.
     let alpha = ((14.0 + 12.5) / 45.0_f64).powi(4);
     let modes = table.slice(alpha).at([6.5 / 31.0, 20.25 / 31.0]);
     let mut mean = 0.0;
@@ -183,7 +184,7 @@ fn textures_of_other_kinds_are_refused() {
     let mut mips = with(8, flags | 0x0002_0000);
     mips[28..32].copy_from_slice(&2_u32.to_le_bytes());
     assert!(error(&mips).contains("mips"));
-    // No depth, by the flags.
+    // The flags say that there is no depth.
     assert!(error(&with(8, flags & !0x0080_0000)).contains("32 x 32 x 0 texels"));
     assert!(error(&with(112, 0xfe00)).contains("cube"));
     // DX10: format, dimension, cube flag, array size.
@@ -210,7 +211,7 @@ fn bad_texels_name_their_place() {
     }
     assert!(error(&set(at + 4, f16::from_f64(1.5).to_bits())).contains("v2 must be in [-1, 1]"));
     assert!(error(&set(place(2, 3, 4), f16::ONE.to_bits())).contains("exchanged"));
-    // Its A does not count.
+    // A texel's A does not matter.
     assert!(SlabTable::from_dds(&set(at + 6, f16::NAN.to_bits())).is_ok());
 }
 
@@ -220,7 +221,7 @@ fn no_flipped_bit_panics() {
     for bit in 0..HEADER_BYTES * 8 {
         let mut bytes = good.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
-        // Most are refused, some headers' bits mean nothing: none may panic.
+        // Most are refused, while some bits of the headers mean nothing: none may panic.
         let _ = SlabTable::from_dds(&bytes);
     }
 }

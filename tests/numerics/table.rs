@@ -15,7 +15,7 @@ fn lookup_is_bilinear_and_clamped() {
     assert_eq!(table.lookup(0.5, 1.0), table.cell(1, 1));
     assert_eq!(table.lookup(-3.0, 7.0), table.cell(0, 1));
     let [a, _, _] = table.lookup(0.25, 0.5);
-    // Between the first four nodes, whose a are 0.1, 1.1, 2.1, 3.1.
+    // In the middle between the first four nodes, whose a are 0.1, 1.1, 2.1, 3.1.
     assert!((a - 1.6).abs() < 1e-15);
     let [a, _, _] = table.lookup(0.75, 0.25);
     assert!((a - (0.5 * (2.1 + 4.1) + 0.25)).abs() < 1e-14);

@@ -1,4 +1,5 @@
-//! The deterministic solution: against itself on other meshes, against the walk, and against what is known otherwise.
+//! The deterministic solution: against itself on other meshes, against the walk, and against what is known from
+//! elsewhere.
 
 use crate::direction;
 use crate::statistics::{REJECTED, SIGNIFICANCE, assert_within, chi_square};
@@ -18,7 +19,7 @@ fn solve(alpha: f64, modes: usize, refinement: f64) -> Transport {
     Transport::new(Slab::new(alpha), Resolution { modes, refinement, ridge: None })
 }
 
-/// Where the tables have nodes in mu; the first one at the horizon's edge.
+/// The cosines of the tables' nodes; the first one, 0, is replaced by 1e-3.
 fn mus() -> impl Iterator<Item = f64> {
     (0..32).map(|j| (f64::from(j) / 31.0).max(1e-3))
 }
@@ -27,7 +28,7 @@ fn incident(mu: f64) -> DVec3 {
     direction(mu, 0.0)
 }
 
-/// Largest relative differences over `mus`: of R, and of the reflected lobe in L2.
+/// The largest relative differences over `mus` in R, and in the reflected lobe (L2).
 fn difference(one: &Transport, other: &Transport, mus: impl Iterator<Item = f64>) -> [f64; 2] {
     let hemisphere = Hemisphere::new(other.cosines());
     let (mut albedo, mut lobe) = (0.0_f64, 0.0_f64);
@@ -45,7 +46,8 @@ fn difference(one: &Transport, other: &Transport, mus: impl Iterator<Item = f64>
     [albedo, lobe]
 }
 
-/// Most that two meshes may differ by, relative, for alpha >= 2/31 and mu >= 1e-3: R, and lobes in L2. The README quotes them.
+/// The most by which two meshes may differ, relatively, for alpha >= 2/31 and mu >= 1e-3: in R, and in lobes (L2). The
+/// README quotes both.
 const MESHES: [f64; 2] = [2e-4, 3e-4];
 
 #[test]
@@ -55,7 +57,7 @@ fn two_meshes_agree_at_every_node() {
         assert!(albedo < albedo_limit && lobe < lobe_limit, "alpha {i}/31: R {albedo:.1e}, lobe {lobe:.1e}");
     };
     (2..32).into_par_iter().for_each(|i| check(f64::from(i), MESHES));
-    // Below, the wide panels' polynomials are what is left in the lobes.
+    // At lower alpha, the wide panels' polynomials are what limits the lobes.
     check(1.0, [5e-5, 1e-3]);
     check(0.5, [5e-5, 1e-3]);
     let quoted = format!("R within {:e}, lobes (L2) within {:e}", MESHES[0], MESHES[1]);
@@ -74,7 +76,8 @@ fn at_the_horizon_itself_lobes_agree_less_and_a_coarse_mesh_is_told() {
 
 #[test]
 fn errors_fall_with_the_mesh_at_high_order() {
-    // Eight nodes a panel: order 8 where functions are smooth, less near the horizon, which other cosines see through scattering.
+    // Eight nodes per panel: order 8 where functions are smooth, and less near the horizon, which affects other cosines
+    // by scattering.
     for (alpha, least_order) in [(0.7, 5.0), (0.3, 4.0)] {
         let finest = solve(alpha, 1, 5.0);
         let [coarse, fine] = [0.5, 2.0].map(|refinement| {
@@ -93,15 +96,16 @@ fn errors_fall_with_the_number_of_modes() {
     for alpha in [0.1, 0.3, 0.6] {
         let all = solve(alpha, 12, 1.0);
         let errors = [1, 2, 3, 4, 6].map(|modes| difference(&solve(alpha, modes, 1.0), &all, mus())[1]);
-        // Single scattering is exact: what is left is smooth in azimuth, and each mode leaves a fraction of what the last one left.
+        // Single scattering is exact. The rest is smooth in azimuth, and each further mode leaves a fraction of what
+        // the last one left.
         assert!(errors.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "alpha {alpha}: {errors:?}");
         assert!(errors[1] < 4e-3 && errors[3] < 3e-4, "alpha {alpha}: {errors:?}");
         println!("alpha {alpha}: relative L2 error with 1, 2, 3, 4, 6 modes {errors:?}");
     }
 }
 
-/// R of an isotropically scattering slab of depth 1, from its collisions' density over depth: C = first + 1/2 integral of
-/// E_1(|t - t'|) C(t') dt', constant in each of `n` cells. Knows nothing of elevations.
+/// R of an isotropically scattering slab of depth 1, from the density of its collisions over depth: C = first + 1/2
+/// integral of E_1(|t - t'|) C(t') dt', taken as constant in each of `n` cells. It has no elevations.
 fn isotropic_albedo(mu: f64, n: usize) -> f64 {
     let h = 1.0 / n as f64;
     // E_2 and E_3 as integrals over the cosine; x >= 0.
@@ -110,7 +114,7 @@ fn isotropic_albedo(mu: f64, n: usize) -> f64 {
         rule.iter().map(|(t, w)| (t * t, 2.0 * t * w)).map(|(m, w)| w * m.powi(power) * (-x / m).exp()).sum()
     };
     let e3: Vec<f64> = (0..=n + 1).map(|k| moment(k as f64 * h, 1)).collect();
-    // Mean over one cell of 1/2 the integral of E_1 over another, k cells apart: second differences of E_3.
+    // The mean over one cell of half the integral of E_1 over another, k cells apart: second differences of E_3.
     let coupling = |k: usize| {
         if k == 0 { 1.0 - (e3[0] - e3[1]) / h } else { 0.5 * (e3[k - 1] - 2.0 * e3[k] + e3[k + 1]) / h }
     };
@@ -124,7 +128,7 @@ fn isotropic_albedo(mu: f64, n: usize) -> f64 {
 fn the_isotropic_slab_agrees_with_its_solution_over_depth() {
     let slab = solve(1.0, 1, 1.0);
     for mu in [1.0, 0.5, 0.1, 0.01] {
-        // Piecewise constant: second order, so that two resolutions give the limit.
+        // Piecewise constant functions converge at second order, so that two resolutions give the limit.
         let [coarse, fine] = [150, 300].map(|n| isotropic_albedo(mu, n));
         let truth = fine + (fine - coarse) / 3.0;
         assert!((slab.albedo(mu) / truth - 1.0).abs() < 3e-5, "mu {mu}: {}, {truth}", slab.albedo(mu));
@@ -133,7 +137,7 @@ fn the_isotropic_slab_agrees_with_its_solution_over_depth() {
 
 #[test]
 fn albedos_are_the_known_ones() {
-    // From walks of 1e8 paths or more by another program; each within 5e-5.
+    // From walks of 1e8 paths or more by another program, each known to 5e-5.
     let known = [(1.0, 1.0, 0.3413), (1.0, 0.01, 0.7498), (0.7, 0.4, 0.3768), (0.5, 0.5, 0.1535), (0.3, 0.15, 0.3274)];
     for (alpha, mu, truth) in known {
         let albedo = solve(alpha, 1, 1.0).albedo(mu);
@@ -141,7 +145,7 @@ fn albedos_are_the_known_ones() {
     }
 }
 
-/// 34 cells over all of the table that a walk can see, low alpha included: R from 3e-4 to 0.88.
+/// 34 cells from all of the table that a walk can resolve, low alpha included: R is from 3e-4 to 0.88.
 const CELLS: [(u32, &[u32]); 8] = [
     (1, &[0, 1]),
     (2, &[0, 1, 2, 3]),
@@ -153,14 +157,14 @@ const CELLS: [(u32, &[u32]); 8] = [
     (31, &[0, 3, 9, 18, 31]),
 ];
 
-/// By how many of the walk's standard errors the solver's R at (`solved`, mu) is off the walk's at (`alpha`, mu).
+/// How many of the walk's standard errors the solver's R at (`solved`, mu) is off the walk's R at (`alpha`, mu).
 fn off_the_walk(alpha: f64, mu: f64, solved: f64) -> f64 {
     let slab = Slab::new(alpha);
     let walk = Walk { slab, mu, first_flight: FirstFlight::Scattered, paths: 300_000, seed: 21 };
     let counts = walk.run().reflected_more.total() as f64;
-    assert!(counts > 90.0, "alpha {alpha}, mu {mu}: {counts} paths tell nothing");
+    assert!(counts > 90.0, "alpha {alpha}, mu {mu}: {counts} paths are too few");
     let walked = slab.single_scattering_albedo(mu) + counts * walk.share();
-    // A binomial's.
+    // The standard error of a binomial distribution.
     let error = walk.share() * (counts * (1.0 - counts / walk.paths as f64)).sqrt();
     (solve(solved, 1, 1.0).albedo(mu) - walked) / error
 }
@@ -180,11 +184,11 @@ fn albedos_agree_with_the_walk() {
         include_str!("../../README.md").contains(&format!("R in {all} cells")),
         "README.md does not say {all} cells"
     );
-    // The ruler sees 2% of alpha.
+    // The ruler notices 2% of alpha.
     assert!(off_the_walk(0.5, 0.5, 0.51).abs() > 5.0 && off_the_walk(0.2, 0.1, 0.204).abs() > 5.0);
 }
 
-/// The shares of multiply scattered light in the walk's bins, from its lobe over the cosine and azimuth of `wo`.
+/// The shares of multiply scattered light in the walk's bins, from a lobe over the cosine and azimuth of `wo`.
 fn shares(nodes: usize, lobe: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     let mut shares = Vec::new();
     for row in 0..Histogram::MU_BINS {
@@ -243,7 +247,8 @@ fn another_slabs_lobe_is_told() {
 
 #[test]
 fn light_is_neither_lost_nor_gained() {
-    // The transmittance is what is left, by definition; the lobe below, another part of the solution, has to hold it.
+    // The transmittance is the remainder by definition; the transmitted lobe, another part of the solution, has to
+    // agree with it.
     for (alpha, mu) in [(1.0, 0.7), (0.8, 0.2), (0.6, 1.0), (0.5, 0.05)] {
         let solution = Transport::new(Slab::new(alpha), Resolution { ridge: Some(mu), modes: 1, refinement: 4.0 });
         let below: f64 = solution
@@ -312,7 +317,7 @@ fn a_thin_slab_scatters_once() {
 
 #[test]
 fn dim_albedos_are_clean() {
-    // Towards sigma = 0 the steep lobes fall as sigma^3 = alpha^6 while their form holds still.
+    // Towards sigma = 0 the lobes of steep light fall off as sigma^3 = alpha^6, and their shape stays the same.
     let [a, b, c] = [0.02, 0.01, 0.005].map(|alpha| solve(alpha, 1, 1.0).albedo(1.0) / f64::powi(alpha, 6));
     assert!((1.4e-12..1.4e-10).contains(&(a * 0.02_f64.powi(6))), "R(0.02, 1) = {:e}", a * 0.02_f64.powi(6));
     assert!((b / a - 1.0).abs() < 0.1 && (c / b - 1.0).abs() < 0.05 && (c / b - 1.0).abs() < (b / a - 1.0).abs());
@@ -322,7 +327,7 @@ fn dim_albedos_are_clean() {
 
 #[test]
 fn the_limit_at_the_horizon_is_reached() {
-    // It grows towards 1 as alpha falls; the first is known to three digits.
+    // The limit grows towards 1 as alpha falls; the first is known to three digits.
     let limits = [1.0 / 31.0, 0.01, 0.005].map(|alpha| {
         let [one, other] = [1.0, 1.5].map(|refinement| solve(alpha, 1, refinement));
         let [limit, again] = [&one, &other].map(|solution| solution.albedo(0.0));
@@ -334,8 +339,8 @@ fn the_limit_at_the_horizon_is_reached() {
     assert!((limits[0] - 0.880).abs() < 1e-3 && limits[0] < limits[1] && limits[1] < limits[2], "{limits:?}");
 }
 
-/// Probabilities of a walk's counts below, of how many there are and of their directions, under the solution with its azimuth turned by
-/// `turn`.
+/// The probability of a walk's transmitted counts, of their number and of their directions, under the solution with its
+/// azimuth turned by `turn`.
 fn transmitted_probability(alpha: f64, mu: f64, turn: f64) -> f64 {
     let solution = Transport::new(Slab::new(alpha), Resolution { ridge: Some(mu), modes: 8, refinement: 1.0 });
     let walk = Walk { slab: *solution.slab(), mu, first_flight: FirstFlight::Analog, paths: 400_000, seed: 23 };
@@ -354,7 +359,7 @@ fn the_transmitted_lobe_agrees_with_the_walks_histogram() {
         let p = transmitted_probability(alpha, mu, 0.0);
         assert!(p > SIGNIFICANCE, "alpha {alpha}, mu {mu}: p = {p:.1e}");
     }
-    // Its other side is told.
+    // The lobe's other side is rejected.
     assert!(transmitted_probability(0.5, 0.2, PI) < REJECTED);
 }
 

@@ -8,7 +8,7 @@ fn walk(alpha: f64, mu: f64, first_flight: FirstFlight, paths: u64, seed: u64) -
     Walk { slab: Slab::new(alpha), mu, first_flight, paths, seed }
 }
 
-/// Standard error of a share that `walk` found as `share`.
+/// The standard error of a share that a walk of `paths` paths found to be `share`.
 fn binomial_error(share: f64, paths: u64) -> f64 {
     (share * (1.0 - share) / paths as f64).sqrt()
 }
@@ -98,7 +98,7 @@ fn another_slabs_single_scattering_is_told() {
 
 #[test]
 fn albedos_are_the_known_ones() {
-    // From walks of 1e8 paths or more by another program; each within 5e-5.
+    // From walks of 1e8 paths or more by another program, each known to 5e-5.
     let known = [(1.0, 1.0, 0.3413), (1.0, 0.01, 0.7498), (0.7, 0.4, 0.3768), (0.5, 0.5, 0.1535), (0.3, 0.15, 0.3274)];
     for (alpha, mu, truth) in known {
         let walk = walk(alpha, mu, FirstFlight::Analog, 1_000_000, 5);
@@ -110,7 +110,8 @@ fn albedos_are_the_known_ones() {
 
 #[test]
 fn long_paths_count() {
-    // At low alpha and grazing light most of R has scattered many times: a walk cut at 16 loses four fifths of it.
+    // At low alpha and grazing angles, most of R is light that has scattered many times: a walk cut off at 16 loses
+    // four fifths of it.
     let walk = walk(0.032, 0.01, FirstFlight::Scattered, 100_000, 6);
     let counts = walk.run();
     assert!(counts.reflected_more.total() > 9 * counts.reflected_once.total());

@@ -5,7 +5,7 @@ use velour::renderer::device::{self, Gpu};
 use wgpu::util::DeviceExt;
 use wgpu::{BufferUsages, PollType, TextureView};
 
-/// The device under test. A machine without one fails: what wasn't run wasn't tested.
+/// The device under test. Without one the tests fail: what wasn't run wasn't tested.
 fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| {
@@ -15,7 +15,7 @@ fn gpu() -> &'static Gpu {
     })
 }
 
-/// A two-dimensional texture of four floats a texel, rows of `width`.
+/// A two-dimensional texture of four floats per texel, in rows of `width`.
 pub fn texture(width: u32, texels: &[[f32; 4]]) -> TextureView {
     let size = wgpu::Extent3d { width, height: texels.len() as u32 / width, depth_or_array_layers: 1 };
     let descriptor = wgpu::TextureDescriptor {

@@ -1,9 +1,9 @@
-//! The shipped files as text: what a copier relies on before anything runs.
+//! The shipped files as text: what people who copy them rely on before anything runs.
 
 use std::path::Path;
 use wgpu::naga::{self, TypeInner};
 
-/// Each file with what its header's example takes for granted.
+/// Each file, with the declarations that its header's example takes for granted.
 const FILES: [(&str, &str); 3] = [
     (
         "ltc.wgsl",
@@ -39,7 +39,7 @@ fn compile(source: &str) -> Result<naga::Module, String> {
     Ok(module)
 }
 
-/// What breaks the rules for files that people copy: `stem` is the file's name without its extension.
+/// Breaches of the rules for files that people copy; `stem` is the file's name without its extension.
 fn problems(stem: &str, source: &str) -> Vec<String> {
     let mut problems = Vec::new();
     let lines: Vec<&str> = source.lines().collect();
@@ -50,7 +50,7 @@ fn problems(stem: &str, source: &str) -> Vec<String> {
     if !headed || lines.get(HEADER.len()) != Some(&"") {
         problems.push("header".to_owned());
     }
-    // WGSL has no preprocessor; people's own use '#'.
+    // WGSL has no preprocessor; those that people add use '#'.
     if source.contains('#')
         || ["enable", "requires", "diagnostic"].iter().any(|word| lines.iter().any(|line| line.starts_with(word)))
     {

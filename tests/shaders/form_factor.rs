@@ -1,4 +1,5 @@
-//! The polygon integral of the shipped file, run on a device, against the reference's in `f64` that is fed the same `f32`.
+//! The polygon integral of the shipped file, run on a device, against the reference's in `f64`, which is fed the same
+//! `f32`.
 
 use crate::files;
 use crate::polygons::{self, Case, Space, Stand};
@@ -7,10 +8,10 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// Draws where the point stands and how thin the light is.
+/// Draws at random where the point is and how thin the light is.
 type Draw = fn(&mut Pcg64) -> (Stand, f64);
 
-/// Errors in form factor, both lobes of each case.
+/// Errors of the form factors, of both lobes of each case.
 struct Errors {
     greatest: f64,
     mean: f64,
@@ -28,7 +29,7 @@ impl Errors {
     }
 }
 
-/// The errors of the source `ltc`. What it gives is a number in [0, 1] in any case.
+/// The errors of the source `ltc`. Fails where a form factor is not a number in [0, 1].
 fn errors(ltc: &str, cases: &[Case]) -> Errors {
     let mut errors = Errors { greatest: 0.0, mean: 0.0 };
     for (case, shaded) in cases.iter().zip(polygons::shaded_by(ltc, cases)) {
@@ -42,8 +43,8 @@ fn errors(ltc: &str, cases: &[Case]) -> Errors {
     errors
 }
 
-/// `count` cases of polygons that `draw` gives a stand and a thinness. In the light's plane, to the rounding that the shader
-/// takes for it, there is a test of its own: those are drawn anew.
+/// `count` cases of polygons, for which `draw` gives a stand and a thinness. Points that the shader takes for being in
+/// the light's plane have a test of their own: here they are drawn anew.
 fn family(seed: u64, count: usize, space: Space, draw: Draw) -> Vec<Case> {
     let mut random = Pcg64::seed_from_u64(seed);
     let mut cases = Vec::with_capacity(count);
@@ -60,7 +61,8 @@ fn family(seed: u64, count: usize, space: Space, draw: Draw) -> Vec<Case> {
     cases
 }
 
-/// Near and far, tiny and huge, grazing, over and beside the light, thin; any of it partly below the horizon.
+/// Near and far, tiny and huge, grazing, over and beside the light, thin lights; all of them also partly below the
+/// horizon.
 fn anything(random: &mut Pcg64) -> (Stand, f64) {
     let thinness = polygons::log_uniform(random, 0.1, 1.0);
     match random.random_range(0..5) {
@@ -78,9 +80,10 @@ fn random_polygons_agree_with_the_exact_form_factor() {
     let local = errors(&ltc, &family(1, 50_000, Space::Local, anything));
     let world = errors(&ltc, &family(2, 50_000, Space::World, anything));
     println!("vertices in the local frame {local:?}, in the world {world:?}");
-    // A handful of roundings of numbers near 1, 6e-8 each.
+    // A handful of roundings of numbers near 1, of 6e-8 each.
     assert!(local.within(1e-6, 5e-8), "{local:?}");
-    // Taking vertices to the local frame rounds them to 1e-7 of their distance, 300 times more of that of a near edge.
+    // Transforming vertices to the local frame rounds them to 1e-7 of their distance, which is 300 times more of a near
+    // edge's.
     assert!(world.within(1e-4, 1e-6), "{world:?}");
 }
 
@@ -100,7 +103,7 @@ fn a_hair_from_an_edge_costs_nothing_but_the_rounding_of_the_vertices() {
         println!("{distance:e} of its size from an edge: local {local:?}, world {world:?}");
         // Products of split factors are good to 2^-35 of the product of two distances.
         assert!(local.within(1e-6 + 1e-11 / distance, 1e-7 + 1e-13 / distance), "{distance:e}: {local:?}");
-        // What the caller rounded before the walk began: some 2^-23 of the size, as an angle seen from that distance.
+        // What the caller rounded before the walk began: about 2^-23 of the size, as an angle seen from that distance.
         assert!(world.within(2e-7 / distance, 2e-9 / distance), "{distance:e}: {world:?}");
     }
 }
@@ -122,13 +125,13 @@ fn several_contours_are_one_polygon() {
         let (stand, thinness) = anything(&mut random);
         let outline = polygons::outline(&mut random, thinness);
         let stand = polygons::stand(&mut random, &outline, stand);
-        // Three corners may leave the centre out, about which the hole is similar to the outline.
+        // An outline of few corners may not contain the centre, around which the hole is a smaller copy of the outline.
         if (0..outline.len()).any(|k| outline[k].perp_dot(outline[(k + 1) % outline.len()]) <= 0.0) {
             continue;
         }
         let scale = random.random_range(0.1..0.9);
         let hole = outline.iter().rev().map(|&vertex| scale * vertex).collect();
-        // A second outline stands beside the first.
+        // A second outline lies beside the first.
         let aside = 1.1 * DVec2::from_angle(random.random_range(0.0..TAU));
         let island = outline.iter().map(|&vertex| vertex + aside).collect();
         let size = polygons::log_uniform(&mut random, 1e-3, 1e4);
@@ -151,7 +154,7 @@ fn errors_are_seen_where_clipping_precision_or_a_sign_is_missing() {
     };
     let cases = family(1, 2_000, Space::Local, anything);
     assert!(errors(&shipped, &cases).within(1e-6, 5e-8));
-    // No clipping; no way along the horizon; that way once too often in the wrong sense; an angle that is only roughly right.
+    // No clipping; no path along the horizon; that path taken in the wrong sense; an angle that is only roughly right.
     for (from, to) in [
         ("const LTC_HORIZON = 1e-20;", "const LTC_HORIZON = -1e30;"),
         ("abs(side) * ltc_angle(", "0.0 * ltc_angle("),
@@ -161,7 +164,7 @@ fn errors_are_seen_where_clipping_precision_or_a_sign_is_missing() {
         let found = errors(&broken(from, to), &cases);
         assert!(!found.within(1e-6, 5e-8), "'{to}' goes unnoticed: {found:?}");
     }
-    // Products that aren't split are seen near an edge.
+    // Near an edge it shows where products aren't split.
     let near = family(3, 2_000, Space::Local, |_| (Stand::BesideEdge(1e-4), 1.0));
     let found = errors(&broken("+ 0.5 * rest", "+ 0.4 * rest"), &near);
     assert!(!found.within(1e-6, 1e-7), "{found:?}");

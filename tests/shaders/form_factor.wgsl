@@ -1,4 +1,4 @@
-// Form factors of polygons under the diffuse lobe and another, fed by one walk.
+// Form factors of polygons under the diffuse lobe and another, both from a single walk.
 
 struct Case {
     position: vec3<f32>,

@@ -34,14 +34,15 @@ fn shaded_by(table: &GgxTable, points: &[[f32; 4]]) -> Vec<Shaded> {
     shaded(&table.texels(), table.size()[0], points)
 }
 
-/// A table of cells that `f32` holds, so that nothing is rounded on its way into the texture.
+/// A table of cells that `f32` holds exactly, so that nothing is rounded on its way into the texture.
 fn random_table(random: &mut Pcg64, size: [usize; 2]) -> GgxTable {
     let mut number = |low: f32, high: f32| f64::from(random.random_range(low..high));
     let cell = |_| [number(0.0, 1.0), number(-1.0, 1.0), number(0.1, 1.5), number(0.5, 1.0), number(0.0, 0.5)];
     GgxTable::new(size, (0..size[0] * size[1]).map(cell).collect())
 }
 
-/// Points in and around the unit square of (roughness, mu), its corners and the nodes of a table among them; f0 and f90 in \[0, 1\].
+/// Points in and around the unit square of (roughness, mu), including its corners and the nodes of a table; f0 and f90
+/// in \[0, 1\].
 fn points(random: &mut Pcg64, size: [usize; 2]) -> Vec<[f32; 4]> {
     let mut places =
         vec![[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [-0.0, 0.5], [1.0000001, 0.5], [-3.0, 7.0], [1e9, -1e9]];
@@ -58,7 +59,7 @@ fn points(random: &mut Pcg64, size: [usize; 2]) -> Vec<[f32; 4]> {
     places.into_iter().map(|[roughness, mu]| [roughness, mu, reflectance(), reflectance()]).collect()
 }
 
-/// What of a lobe the table is linear in, but for a known function of mu.
+/// Those quantities of a lobe in which the table is linear, apart from a known function of mu.
 fn linear([a, b, c, albedo, fresnel]: [f64; 5]) -> [f64; 5] {
     [a / c, b / c, c.powf(-0.5), albedo, fresnel]
 }
@@ -90,9 +91,10 @@ fn the_lookup_is_the_tables_own_for_any_size() {
         let points = points(&mut random, size);
         let error = greatest_error(table, &points, |roughness, mu| table.lookup(roughness, mu));
         println!("{size:?}: {error:.1e}");
-        // Some roundings of numbers up to 2; and neighbours differ, and their weights carry the rounding of their place.
+        // Some roundings of numbers up to 2; besides, neighbours differ, and their weights carry the rounding of the
+        // place.
         assert!(error < 1e-6 + 1.2e-7 * difference * (size[0].max(size[1]) - 1) as f64, "{size:?}: {error:e}");
-        // The ruler sees axes exchanged, and mu itself in place of its t.
+        // The ruler notices exchanged axes, and mu itself in place of t.
         assert!(greatest_error(table, &points, |roughness, mu| table.lookup(mu, roughness)) > 0.1);
         let straight = |mu: f64| 1.0 - (1.0 - mu.clamp(0.0, 1.0)).powi(2);
         assert!(greatest_error(table, &points, |roughness, mu| table.lookup(roughness, straight(mu))) > 0.1);
@@ -106,7 +108,7 @@ fn a_light_that_covers_the_hemisphere_gives_the_albedo() {
     let points = points(&mut random, table.size());
     for (point, shaded) in points.iter().zip(shaded_by(&table, &points)) {
         let a = f64::from(shaded.m_inv[0][0]);
-        // The ceiling ends 1e-5 above the horizon; seen by a lobe of a, at 1e-5 / a.
+        // The ceiling ends 1e-5 above the horizon, which a lobe of this a sees at 1e-5 / a.
         let tolerance = 2e-6 + 1e-9 / (a * a);
         assert!((f64::from(shaded.form_factor) - 1.0).abs() < tolerance, "{} at {point:?}", shaded.form_factor);
     }
@@ -125,7 +127,7 @@ fn no_more_light_comes_back_than_came() {
             assert!((0.0..=1.0).contains(&share), "{at}: {share}");
             let expected = Schlick::new(f0.into(), f90.into()).albedo(albedo, fresnel);
             assert!(expected < 1.0 + 1e-12, "{at}: {expected}");
-            // Rounding, twice that of a place in the table.
+            // Rounding, twice as much as that of a place in the table.
             assert!((f64::from(share) - expected).abs() < 4e-6, "{at}: {share}, {expected}");
         }
         let [red, green, blue] = shaded.shares;

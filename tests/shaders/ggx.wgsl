@@ -1,4 +1,5 @@
-// The specular base at each point (roughness, mu, f0, f90), and what it sends back of a light that covers the whole hemisphere.
+// The specular base at each point (roughness, mu, f0, f90), and the share it sends back of a light that covers the
+// hemisphere.
 
 struct Result {
     m_inv: mat3x3<f32>,

@@ -1,4 +1,4 @@
-//! Ten million polygons by the shipped file on a device, against the reference in `f64` that is fed the same `f32`.
+//! Ten million polygons by the shipped file on a device, against the reference in `f64`, which is fed the same `f32`.
 
 use crate::polygons::{self, Case, Space, Stand};
 use rand::{RngExt, SeedableRng};
@@ -6,17 +6,17 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 const CASES: usize = 10_000_000;
-/// What is on the device at a time.
+/// Cases that are on the device at a time.
 const BATCH: usize = 200_000;
-/// Cases of one seed.
+/// Cases that share a seed.
 const RUN: usize = 1000;
 
-/// Anything that has troubled area lights: far, over, beside and thin ones of all sizes, a hair above the surface, a hair from
-/// an edge; and with a lobe of the sheen or of the specular base.
+/// Anything that has troubled area lights: points far from them, over them and beside them, thin lights, all sizes, a
+/// hair above the surface, a hair from an edge; with a lobe of the sheen or of the specular base.
 fn adversary(random: &mut Pcg64) -> Case {
     loop {
         let specular = random.random();
-        // A narrow lobe at a grazing angle enlarges the rounding of what is seen from too near, by c / a at most.
+        // A narrow lobe at a grazing angle enlarges the rounding of what is too near, by at most c / a.
         let hair = if specular { 1e-5 } else { 1e-6 };
         let mut near = |low, high| polygons::log_uniform(random, low, high);
         let wide = near(0.1, 1.0);
@@ -35,14 +35,14 @@ fn adversary(random: &mut Pcg64) -> Case {
         if specular {
             case.m_inv = polygons::specular_lobe(random, alpha);
         }
-        // In the light's plane, to the rounding that the shader takes for it, there is a test of its own.
+        // Points that the shader takes for being in the light's plane have a test of their own.
         if case.height() > 6e-7 {
             return case;
         }
     }
 }
 
-/// Greatest and mean error of the diffuse lobe, of the sheen and of the specular base.
+/// Greatest and mean errors of the diffuse lobe, of the sheen and of the specular base.
 #[derive(Clone, Copy, Debug, Default)]
 struct Errors {
     greatest: [f64; 3],

@@ -1,4 +1,4 @@
-//! Where others return NaN, leak light or go black: one test a case.
+//! Where others return NaN, leak light or go black: one test for each case.
 
 use crate::polygons::{self, Case, Space, Stand};
 use glam::{Mat3, Vec2, Vec3};
@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 /// A few roundings of numbers near 1.
 const ROUNDING: f64 = 1e-6;
 
-/// Both lobes of every case against the reference, and their values.
+/// Compares both lobes of every case with the reference, and returns their values.
 fn assert_exact(cases: &[Case]) -> Vec<[f32; 2]> {
     let found = polygons::shaded(cases);
     for (case, found) in cases.iter().zip(&found) {
@@ -36,7 +36,7 @@ fn square(shift: Vec3) -> Case {
     Case { m_inv: sheen(0.4, -0.5), ..Case::local(vec![contour], -Vec3::Z) }
 }
 
-/// The same light about an upright plane, half of it below the horizon.
+/// The same light in an upright plane, half of it below the horizon.
 fn wall(shift: Vec3) -> Case {
     let upright = Mat3::from_cols(Vec3::Y, Vec3::Z, Vec3::X);
     let flat = square(upright.transpose() * shift);
@@ -110,8 +110,8 @@ fn in_the_plane_of_an_oblique_light_it_is_dark_although_both_are_rounded() {
             let outline = polygons::outline(&mut random, 1.0);
             let stand = polygons::stand(&mut random, &outline, Stand::Over(0.0));
             let case = polygons::place(&mut random, &outline, stand, 1.0, space);
-            // Coordinates are rounded to a share of themselves: seen from a vertex much closer than the origin that is more.
-            // And a sliver's vertices, rounded, span another plane.
+            // Coordinates are rounded relative to their own size: to a point much nearer to a vertex than to the origin
+            // that is more. And a sliver's vertices, once rounded, span another plane.
             let near = case.position.length() > case.contours[0][0].distance(case.position);
             if !near && polygons::area_of(&case.contours[0]).length() > 0.1 {
                 cases.push(Case { two_sided: true, ..case });
@@ -137,7 +137,7 @@ fn a_hundred_thousandth_of_its_size_above_a_surface_a_light_is_a_light() {
 #[test]
 fn behind_a_one_sided_light_it_is_dark_and_a_two_sided_one_shines_as_brightly() {
     let front = [square(Vec3::new(0.3, 0.2, 0.7)), wall(Vec3::new(0.5, 0.1, 0.2))];
-    // Turned over: the outline runs the other way round, and the normal points away.
+    // Turned over: the outline runs the other way round, and the normal is the opposite.
     let behind = front.clone().map(|case| {
         let contours = case.contours.iter().map(|contour| contour.iter().rev().copied().collect()).collect();
         Case { contours, light_normal: -case.light_normal, ..case }
@@ -159,11 +159,11 @@ fn wholly_below_the_horizon_and_on_it_there_is_nothing() {
         wall(Vec3::new(1.0, 0.0, -1.0)),
         wall(Vec3::new(1.0, 0.0, -3.0)),
     ];
-    // Vertices that touch the horizon from below, also as -0.
+    // Vertices that touch the horizon from below, with -0 too.
     cases.push(wall(Vec3::new(1.0, 0.0, -1.0)));
     cases[4].contours[0].iter_mut().filter(|vertex| vertex.z == 0.0).for_each(|vertex| vertex.z = -0.0);
     assert_dark(&cases);
-    // Standing on the horizon, with vertices on it or off it by less than anything can resolve.
+    // Lights that stand on the horizon, with vertices on it or off it by less than anything can resolve.
     let standing = [0.0, 1e-30, -1e-30, 1e-12, -1e-12, 1e-7, -1e-7].map(|lift| {
         let mut case = wall(Vec3::new(1.0, 0.0, 1.0));
         case.contours[0].iter_mut().filter(|vertex| vertex.z == 0.0).enumerate().for_each(|(k, vertex)| {
@@ -186,7 +186,7 @@ fn a_comb_that_crosses_the_horizon_two_hundred_times_is_exact() {
     };
     for (k, found) in polygons::shaded(&cases).into_iter().enumerate() {
         assert!(found.iter().all(|&found| found > 1e-4), "{found:?}");
-        // A rounding each of two hundred angles and directions.
+        // One rounding for each of two hundred angles and directions.
         assert!(errors(k, found).iter().all(|&error| error < 200.0 * 6e-8), "{found:?} by {:?}", errors(k, found));
     }
 }
@@ -207,7 +207,7 @@ fn polygons_without_an_area_are_dark_and_repeated_or_collinear_vertices_change_n
         vec![Vec3::X, -Vec3::X],
     ];
     for contour in &lines {
-        // Without an area a light has no normal; whatever a loader made of it, nothing arrives.
+        // A light without an area has no normal; whatever a loader makes up for it, nothing arrives.
         for light_normal in [Vec3::ZERO, -Vec3::Z, Vec3::X] {
             let case =
                 Case { two_sided: true, m_inv: sheen(0.4, -0.5), ..Case::local(vec![contour.clone()], light_normal) };
@@ -281,7 +281,7 @@ fn six_lights_around_a_point_light_every_lobe_wholly() {
         let found = polygons::shaded(&faces);
         for lobe in [0, 1] {
             let sum: f32 = found.iter().map(|found| found[lobe]).sum();
-            // Six walks of four edges.
+            // The rounding of six walks of four edges.
             assert!((sum - 1.0).abs() < 3e-6, "{sum} at {position} facing {normal}");
         }
     }

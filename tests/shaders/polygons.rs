@@ -1,4 +1,4 @@
-//! Polygons as the shaders see them and as the reference does, and ways to draw random ones.
+//! Polygons as the shaders see them and as the reference sees them, and ways to draw random ones.
 
 use crate::{device, files};
 use glam::{DMat3, DVec2, DVec3, Mat3, Vec3};
@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 use velour::reference::polygon;
 
-/// A shaded point and a light, in `f32`: what both sides are fed.
+/// A shaded point and a light, in `f32`, as both sides are fed them.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub position: Vec3,
@@ -26,7 +26,7 @@ impl Case {
         Self { position: Vec3::ZERO, normal: Vec3::Z, view: Vec3::X, contours, light_normal, two_sided: false, m_inv }
     }
 
-    /// How high the point stands over the light's plane, as a share of its distance to the first vertex.
+    /// The point's height over the light's plane, as a share of its distance from the first vertex.
     pub fn height(&self) -> f64 {
         let first = self.contours[0][0].as_dvec3() - self.position.as_dvec3();
         self.light_normal.as_dvec3().dot(first).abs() / first.length()
@@ -36,7 +36,7 @@ impl Case {
     pub fn exact(&self) -> [f64; 2] {
         let normal = self.normal.as_dvec3().normalize();
         let tangent = self.view.as_dvec3().reject_from_normalized(normal);
-        // Where the view is the normal to its last digit, the frame is anyone's.
+        // Where the view equals the normal to the last digit, any frame will do.
         let x = if tangent.length() < 1e-9 { normal.any_orthonormal_vector() } else { tangent.normalize() };
         let local_from_world = DMat3::from_cols(x, normal.cross(x), normal).transpose();
         let local = |vertex: &Vec3| local_from_world * (vertex.as_dvec3() - self.position.as_dvec3());
@@ -64,7 +64,7 @@ pub fn shaded(cases: &[Case]) -> Vec<[f32; 2]> {
     shaded_by(&files::source("ltc.wgsl"), cases)
 }
 
-/// The same by another source in place of the shipped one.
+/// The same from another source in place of the shipped file.
 pub fn shaded_by(ltc: &str, cases: &[Case]) -> Vec<[f32; 2]> {
     let (mut packed, mut contours, mut vertices) = (Vec::new(), Vec::<[u32; 2]>::new(), Vec::<[f32; 4]>::new());
     for case in cases {
@@ -100,8 +100,8 @@ pub fn direction(random: &mut Pcg64) -> DVec3 {
     DVec3::new(radius * x, radius * y, z)
 }
 
-/// A simple polygon in its own plane about (0, 0), counter-clockwise, of size 1 along and `thinness` across: every third
-/// is star-shaped and mostly concave, the others lie on an ellipse.
+/// A simple polygon in its own plane around (0, 0), counter-clockwise, of size 1 along one axis and `thinness` along
+/// the other: every third one is star-shaped and mostly concave, the others have their vertices on an ellipse.
 pub fn outline(random: &mut Pcg64, thinness: f64) -> Vec<DVec2> {
     let count = random.random_range(3..=8);
     let star = random.random_range(0..3) == 0;
@@ -117,14 +117,14 @@ pub fn outline(random: &mut Pcg64, thinness: f64) -> Vec<DVec2> {
     vertices
 }
 
-/// Where the shaded point stands with regard to a polygon of size 1.
+/// Where the shaded point is in relation to a polygon of size 1.
 #[derive(Clone, Copy)]
 pub enum Stand {
-    /// Anywhere at so many sizes.
+    /// This many sizes away, in any direction.
     Away(f64),
-    /// So many sizes over a random point of the polygon's bounding square.
+    /// This many sizes above a random point of the polygon's bounding square.
     Over(f64),
-    /// So many sizes from a random point of an edge, in any direction.
+    /// This many sizes from a random point of an edge, in any direction.
     BesideEdge(f64),
 }
 
@@ -148,7 +148,8 @@ pub fn sheen_lobe(random: &mut Pcg64) -> Mat3 {
     Mat3::from_cols(Vec3::X * a, Vec3::Y * a, Vec3::new(b, 0.0, 1.0))
 }
 
-/// A random lobe of the specular base, as its fits are: c = 1 / 2 alpha for a GGX `alpha`, the peak where a mirror has it.
+/// A random lobe of the specular base, like its fits: c is near 1 / (2 alpha) for GGX of `alpha`, and the peak is where
+/// a mirror has it.
 pub fn specular_lobe(random: &mut Pcg64, alpha: f64) -> Mat3 {
     let mu: f64 = random.random_range(0.01..1.0);
     let c = 0.5 / alpha * random.random_range(0.7..1.4);
@@ -164,12 +165,13 @@ pub enum Space {
     World,
 }
 
-/// A light of the given size, seen from a surface of random orientation; two of three are one-sided and in front.
+/// A light of the given size, seen from a surface of random orientation; two out of three are one-sided and seen from
+/// the lit side.
 pub fn place(random: &mut Pcg64, outline: &[DVec2], stand: DVec3, size: f64, space: Space) -> Case {
     place_contours(random, &[outline.to_vec()], stand, size, space)
 }
 
-/// The same of several contours, the first of which runs around some of the area.
+/// The same for a light of several contours, the first of which encloses some of the area.
 pub fn place_contours(random: &mut Pcg64, plane: &[Vec<DVec2>], stand: DVec3, size: f64, space: Space) -> Case {
     let two_sided = random.random_range(0..3) == 0;
     let stand = if two_sided { stand } else { stand.with_z(stand.z.abs()) };
@@ -199,12 +201,12 @@ pub fn place_contours(random: &mut Pcg64, plane: &[Vec<DVec2>], stand: DVec3, si
     Case { position, normal: normal.as_vec3(), view, contours, light_normal, two_sided, m_inv }
 }
 
-/// The unit normal of a contour, as a loader makes it from the vertices it holds.
+/// The unit normal of a contour, as a loader computes it from its rounded vertices.
 fn normal_of(contour: &[Vec3]) -> Vec3 {
     area_of(contour).normalize_or_zero().as_vec3()
 }
 
-/// The area of a contour times its normal (Newell), exact for the vertices given.
+/// The area of a contour times its normal (Newell), exact for the given vertices.
 pub fn area_of(contour: &[Vec3]) -> DVec3 {
     let about = contour[0].as_dvec3();
     let next = contour.iter().cycle().skip(1);

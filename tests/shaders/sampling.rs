@@ -1,4 +1,4 @@
-//! Samples of the shipped file against its density, and its density against the definition.
+//! Samples from the shipped file against its density, and its density against the definition.
 
 use crate::{device, files, polygons};
 use glam::{DMat3, DVec3, Mat3, Vec3, Vec4};
@@ -17,7 +17,7 @@ fn shaded(m_inv: Mat3, inputs: &[Vec4]) -> Vec<Vec4> {
     device::run(&source, &[bytemuck::cast_slice(&columns), bytemuck::cast_slice(inputs)], None, inputs.len())
 }
 
-/// From dust to fuzz, b of both signs, and a matrix that no table holds.
+/// Lobes from dust to fuzz, with b of both signs, and a matrix that no table holds.
 fn lobes() -> [Mat3; 6] {
     let sheen = |a: f32, b: f32| Mat3::from_cols(Vec3::X * a, Vec3::Y * a, Vec3::new(b, 0.0, 1.0));
     let general = Mat3::from_cols_array(&[0.9, 0.3, 0.0, -0.2, 0.5, 0.0, 0.4, -0.3, 1.0]);
@@ -42,7 +42,7 @@ fn ring_edge(k: usize) -> f64 {
     (k as f64 / RINGS as f64).powi(2)
 }
 
-/// What falls into each cell of the hemisphere for one sample; with the nodes and weights of all cells' quadratures.
+/// The probability that a sample falls into each cell of the hemisphere.
 fn expected(m_inv: Mat3) -> Vec<f64> {
     let mut cells = Vec::with_capacity(RINGS * SECTORS);
     for ring in 0..RINGS {
@@ -102,9 +102,9 @@ fn samples_fall_as_the_density_says() {
         let counts = histogram(&shaded(m_inv, &uniforms));
         let p = p_value(&counts, &expected(m_inv));
         println!("p = {p:.3} for {m_inv:?}");
-        // One true sampler in a thousand would fall short in one of the six lobes.
+        // One correct sampler in a thousand would fail for one of the six lobes.
         assert!(p > 1e-3 / 6.0, "p = {p:e} for {m_inv:?}");
-        // A lobe wider by a twenty-fifth, or one that leans that much further, is another lobe.
+        // Lobes that are 4% wider, or that lean further by as much, must be rejected.
         for (widen, lean) in [(1.04, 0.0), (1.0, 0.04)] {
             let other = Mat3::from_cols(m_inv.x_axis * widen, m_inv.y_axis * widen, m_inv.z_axis + Vec3::X * lean);
             let p = p_value(&counts, &expected(other));
@@ -124,7 +124,7 @@ fn the_density_is_the_definitions_and_integrates_to_one() {
         let found = shaded(m_inv, &directions);
         for (found, given) in found.iter().zip(&directions) {
             let exact = density(m_inv, given.truncate().as_dvec3());
-            // The square of a squared length, whose rounding a narrow lobe's lean enlarges.
+            // The density holds the square of a squared length, whose rounding a narrow lobe's lean enlarges.
             assert!((f64::from(found.w) - exact).abs() < 2e-5 * exact, "{} is not {exact} at {given}", found.w);
         }
         let integral: f64 = found.iter().zip(weights).map(|(found, weight)| f64::from(found.w) * weight).sum();

@@ -27,7 +27,7 @@ fn shaded(table: &SheenTable, points: &[[f32; 2]]) -> Vec<Shaded> {
     device::run(&source, &[bytemuck::cast_slice(points)], Some(&texture), points.len())
 }
 
-/// A table of cells that `f32` holds, so that nothing is rounded on its way into the texture.
+/// A table of cells that `f32` holds exactly, so that nothing is rounded on its way into the texture.
 fn random_table(random: &mut Pcg64, size: [usize; 2]) -> SheenTable {
     let mut number = |low: f32, high: f32| f64::from(random.random_range(low..high));
     SheenTable::new(
@@ -36,7 +36,7 @@ fn random_table(random: &mut Pcg64, size: [usize; 2]) -> SheenTable {
     )
 }
 
-/// Points in and around the unit square, its corners and the nodes of a table among them.
+/// Points in and around the unit square, including its corners and the nodes of a table.
 fn points(random: &mut Pcg64, size: [usize; 2]) -> Vec<[f32; 2]> {
     let mut points =
         vec![[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [-0.0, 0.5], [1.0000001, 0.5], [-3.0, 7.0], [1e9, -1e9]];
@@ -73,7 +73,7 @@ fn the_lookup_is_the_tables_own_for_any_size() {
         println!("{size:?}: {error:.1e}");
         // Neighbours differ by up to 2, and their weights carry the rounding of alpha (n - 1): 2^-24 (n - 1) of it.
         assert!(error < 1e-6 + 1.2e-7 * 2.0 * (size[0].max(size[1]) - 1) as f64, "{size:?}: {error:e}");
-        // The ruler sees axes exchanged, and the centres of texels in place of nodes.
+        // The ruler notices exchanged axes, and centres of texels in place of nodes.
         let [n, m] = size.map(|n| n as f64);
         let centred = |at: f64, n: f64| (at * n - 0.5) / (n - 1.0);
         assert!(greatest_error(&table, &points, |alpha, mu| table.lookup(mu, alpha)) > 0.1);
@@ -88,7 +88,8 @@ fn a_light_that_covers_the_hemisphere_gives_the_shipped_tables_albedo() {
     let points = points(&mut random, table.size());
     for (&[alpha, mu], shaded) in points.iter().zip(shaded(&table, &points)) {
         let [a, _, r] = table.lookup(f64::from(alpha), f64::from(mu));
-        // The ceiling ends 1e-5 above the horizon; seen by a lobe of a, at 1e-5 / a. Besides, the lookup's rounding.
+        // The ceiling ends 1e-5 above the horizon, which a lobe of this a sees at 1e-5 / a. Besides, there is the
+        // lookup's rounding.
         let tolerance = 1e-5 + 1e-9 / (a * a);
         assert!((f64::from(shaded.lit) - r).abs() < tolerance, "{} is not {r} at {alpha}, {mu}", shaded.lit);
     }

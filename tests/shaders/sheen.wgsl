@@ -1,4 +1,4 @@
-// The lobe of the sheen at each point, and what it sends back of a light that covers the whole hemisphere.
+// The lobe of the sheen at each point, and the share it sends back of a light that covers the whole hemisphere.
 
 struct Result {
     m_inv: mat3x3<f32>,

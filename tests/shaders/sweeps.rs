@@ -1,4 +1,4 @@
-//! Lights and points that move in small steps: what is seen moves no faster than the exact form factor does.
+//! Lights and points that move in small steps: the shader's form factor changes no faster than the exact one.
 
 use crate::polygons::{self, Case, Space};
 use glam::{DVec2, DVec3, Vec3};
@@ -6,13 +6,13 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// Two errors of the shader, one at each end of a step.
+/// The shader's errors at both ends of a step.
 const ROUNDING: f64 = 2e-6;
-/// What is left of a light beside the point where it is taken for being in the light's plane: that far out of it, 4.8e-7, each lobe
-/// turns an angle into no more than twenty times as much.
+/// What a light beside the point still gives where the shader takes the point for being in the light's plane: there it
+/// is up to 4.8e-7 out of that plane, an angle that no lobe enlarges more than twenty times.
 const IN_PLANE: f64 = 1e-5;
 
-/// Each step of both lobes is the exact one's or smaller, to the tolerance; with the greatest of them.
+/// Fails unless each step of both lobes is at most the exact one, to the tolerance; returns the greatest step.
 fn assert_follows(steps: &[Case], tolerance: f64) -> f64 {
     let found = polygons::shaded(steps);
     let exact: Vec<[f64; 2]> = steps.iter().map(Case::exact).collect();
@@ -28,7 +28,7 @@ fn assert_follows(steps: &[Case], tolerance: f64) -> f64 {
     greatest
 }
 
-/// Numbers from -`reach` to `reach`, ever closer to 0 and 0 itself.
+/// Numbers from -`reach` to `reach`, ever denser towards 0, which is among them.
 fn through_zero(reach: f64) -> impl Iterator<Item = f64> {
     let side = |sign: f64| (0..200).map(move |k| sign * reach * f64::powf(1e-8, f64::from(k) / 199.0));
     side(-1.0).chain([0.0]).chain(side(1.0).collect::<Vec<_>>().into_iter().rev())
@@ -88,7 +88,7 @@ fn a_point_passes_under_the_edges_of_a_light_without_a_jump() {
         let outline = polygons::outline(&mut random, 1.0);
         let [edge, next] = [outline[0], outline[1]];
         for height in [0.3, 1e-3, 1e-5] {
-            // Over an edge, and over its extension beyond the vertex.
+            // Over an edge, at its end, and over its extension beyond the vertex.
             for along in [0.3, 1.0, 1.4] {
                 let foot = edge.lerp(next, along);
                 let out = (next - edge).perp().normalize();
@@ -105,7 +105,8 @@ fn a_jump_is_seen() {
     let square = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| DVec2::new(x, y));
     let stands = through_zero(0.1).map(|height| DVec3::new(0.1, 0.2, height));
     let mut steps = seen_from(two_sided_seeds().next().unwrap(), &square, stands);
-    // In the light's plane, where the exact one is dark once, the shader is dark for a few steps: through the light that is a jump.
+    // In the light's plane the exact form factor is dark in a single step, the shader's in a few: within the light's
+    // outline that is a jump.
     steps.retain(|case| case.height() > 1e-12);
     assert_follows(&steps, IN_PLANE);
 }

@@ -1,4 +1,4 @@
-//! The vector of a light, whose part along any direction is the form factor of a surface that faces there.
+//! The vector of a light, whose component along any direction is the form factor of a surface that faces that way.
 
 use crate::{device, files, polygons};
 use glam::{DMat3, DVec3, Vec3, Vec4};
@@ -24,7 +24,7 @@ fn its_part_along_a_direction_is_the_form_factor_of_a_surface_facing_there() {
     let (mut triangles, mut facing) = (Vec::new(), Vec::new());
     while triangles.len() < 20_000 {
         let (triangle, normal) = (random_triangle(&mut random), polygons::direction(&mut random));
-        // What lies below either horizon is another polygon to each.
+        // Clipped at either horizon, it would be two different polygons.
         if triangle.iter().all(|vertex| vertex.z > 0.0 && vertex.as_dvec3().dot(normal) > 0.0) {
             triangles.push(triangle);
             facing.push(normal);

@@ -5,21 +5,22 @@ use glam::DVec3;
 use rand::Rng;
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-/// How the axes of thin circular cylinders are distributed around z so that these scatter once as the SGGX medium of a `sigma`.
+/// How the axes of thin circular cylinders are distributed around z, such that their single scattering is that of the
+/// SGGX medium of a `sigma`.
 ///
 /// # Derivation
 ///
-/// Cylinders of diameter d, of length L per volume, have d L / 2 of lateral surface per volume and radian around the axis. Their
-/// normals m lie on the great circle across the axis t; so the density of normals at m gathers the axes on the great circle across m.
-/// With p(c) the density of c = t_z over \[-1, 1\], even, azimuths uniform, and s the sine of m's angle to z, these axes have
-/// c = s cos(phi), and
+/// Cylinders of diameter d, of length L per volume, have d L / 2 of lateral surface per volume and radian around the
+/// axis. Their normals m lie on the great circle perpendicular to the axis t; so the density of normals at m gathers
+/// the axes on the great circle perpendicular to m. Let p(c), an even function, be the density of c = t_z over \[-1,
+/// 1\], let azimuths be uniform, and let s be the sine of m's angle to z. Then these axes have c = s cos(phi), and
 ///
 /// ```text
 /// D(m) = (L d / 2) (1 / 2 pi) integral of p(s cos(phi)) d phi = (L d / pi) integral from 0 to s of p(c) / sqrt(s^2 - c^2) dc.
 /// ```
 ///
-/// SGGX has pi D = sigma^3 / (1 - k s^2)^2 with k = 1 - sigma^2 (Heitz et al. 2015, eq. 9, for S = diag(1, 1, sigma^2)). Abel's equation
-/// with that on the left is inverted by
+/// SGGX has pi D = sigma^3 / (1 - k s^2)^2 with k = 1 - sigma^2 (Heitz et al. 2015, eq. 9, for S = diag(1, 1,
+/// sigma^2)). With that on its left side, this is Abel's integral equation, whose solution is
 ///
 /// ```text
 /// L d p(c) = (2 sigma^3 / pi) dI/dc,  I(c) = integral from 0 to c of s / ((1 - k s^2)^2 sqrt(c^2 - s^2)) ds
@@ -27,9 +28,10 @@ use std::f64::consts::{FRAC_2_PI, TAU};
 /// dI/dc = 1 / (2 A^2) + k c^2 / A^4 + 1 / (2 A^4) + 3 sqrt(k) c atan(sqrt(k) c / A) / (2 A^5).
 /// ```
 ///
-/// It is positive: there are such fibres for every sigma. I(c) / I(1) is the distribution of |c|; that p integrates to 1 sets
-/// L d = (2 / pi) (sigma + u), u = atan(sqrt(k) / sigma) / sqrt(k). It is 4 / pi for sigma = 1 (all directions, p = 1/2) and tends to 1 with
-/// sigma to 0 (all along z). As the flakes' area projected along a direction is the extinction, L d E|w x t| = sigma_t(w): 1 across z.
+/// It is positive: there are such fibres for every sigma. I(c) / I(1) is the cumulative distribution of |c|. As p
+/// integrates to 1, L d = (2 / pi) (sigma + u), u = atan(sqrt(k) / sigma) / sqrt(k), which is 4 / pi for sigma = 1 (all
+/// directions, p = 1/2) and tends to 1 as sigma tends to 0 (all along z). The flakes' area projected along a direction
+/// w is the extinction, so that L d E|w x t| = sigma_t(w), which is 1 across z.
 ///
 /// With y = c / A, everything is written without cancellation: g^2 = 1 + k y^2 = 1 / A^2, I = (y g + u(y) g^3) / 2 with
 /// u(y) = atan(sqrt(k) y) / sqrt(k). And x = sigma y in \[0, 1\] makes the axis (sigma sqrt(1 - x^2), x), normalised.
@@ -43,21 +45,22 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// For the medium of cross-section `sigma` in (0, 1].
+    /// The axes for the medium of cross-section `sigma` in (0, 1]; panics outside that range.
     pub fn new(sigma: f64) -> Self {
         assert!(sigma > 0.0 && sigma <= 1.0, "sigma is in (0, 1]: {sigma}");
         let axes = Self { sigma, k: (1.0 - sigma) * (1.0 + sigma), whole: 1.0 };
         Self { whole: axes.integral(1.0 / sigma), ..axes }
     }
 
-    /// The density p(c) of the cosine `c` in \[-1, 1\] of axes to z, per unit of length of the fibres; its integral is 1.
+    /// The density p(c) of the cosine `c` in \[-1, 1\] of axes to z, where each unit of the fibres' length counts
+    /// alike; its integral is 1.
     pub fn density(&self, c: f64) -> f64 {
         let (y, g) = self.stretched(c);
         // dy/dc = g^3.
         self.slope(y) * g * g * g / (2.0 * self.whole)
     }
 
-    /// The share of the fibres' length whose axes' cosine to z is at most `c` in \[0, 1\], in magnitude.
+    /// The share of the fibres' length whose axes have a cosine to z of magnitude at most `c`, in \[0, 1\].
     pub fn share_below(&self, c: f64) -> f64 {
         self.integral(self.stretched(c).0) / self.whole
     }
@@ -73,7 +76,7 @@ impl Axes {
         1.0 - self.sigma * self.sigma * arc / (self.sigma + arc)
     }
 
-    /// The mean of the sine of axes to z: the fibres seen along z cover sigma.
+    /// The mean of the sine of axes to z: times [`Self::cover`] it is sigma, what the fibres cover as seen along z.
     pub fn mean_sine(&self) -> f64 {
         self.sigma / self.cover()
     }
@@ -87,7 +90,8 @@ impl Axes {
         DVec3::new(across * cos_phi, across * sin_phi, x).normalize_or(DVec3::Z)
     }
 
-    /// y of the share below it. I rises ever more steeply, by a power between 1 and about 3, so that Newton's iteration falls towards the root.
+    /// The y below which a share lies. I rises ever more steeply, by a power between 1 and about 3, so that Newton's
+    /// iteration approaches the root from above.
     fn inverse(&self, share: f64) -> f64 {
         let mut y = share.cbrt() / self.sigma;
         for _ in 0..NEWTON_STEPS {
@@ -107,7 +111,7 @@ impl Axes {
         (c * g, g)
     }
 
-    /// I by y.
+    /// I as a function of y.
     fn integral(&self, y: f64) -> f64 {
         let square = 1.0 + self.k * y * y;
         0.5 * square.sqrt() * (y + self.arc(y) * square)
@@ -119,7 +123,7 @@ impl Axes {
         g + self.k * y * (0.5 * y / g + 1.5 * self.arc(y) * g)
     }
 
-    /// u(y), to round-off also where k is 0.
+    /// u(y), to round-off even where k is 0.
     fn arc(&self, y: f64) -> f64 {
         let square = self.k * y * y;
         if square < 1e-6 {
@@ -130,5 +134,6 @@ impl Axes {
     }
 }
 
-/// More than ever come: from the start, which is the root where sigma is small and above it elsewhere, ten or so reach round-off.
+/// More steps than are ever taken: the start is the root where sigma is small and above it elsewhere, from which ten or
+/// so steps reach round-off.
 const NEWTON_STEPS: usize = 50;

@@ -10,7 +10,8 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::f64::consts::PI;
 
-/// A black ball around the origin in a layer of fibres that stand on it like those of a [`Patch`](super::Patch) on its ground.
+/// A black ball around the origin in a layer of fibres, which stand on it as those of a [`Patch`](super::Patch) stand
+/// on its ground.
 #[derive(Clone)]
 pub struct Ball {
     forest: Forest,
@@ -18,15 +19,17 @@ pub struct Ball {
     thickness: f64,
 }
 
-/// How a ray ended at a ball. Mirrors leave nothing to chance: equal rays end alike.
+/// How a ray at a ball ended. Mirrors leave nothing to chance: equal rays end alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fate {
-    /// It met no fibre, and not the ball below.
+    /// It met neither a fibre nor the ball below.
     Missed,
     /// It ended on the black ball.
     Absorbed {
+        /// By how many fibres it was mirrored before that.
         scatterings: u64,
     },
+    /// Fibres have sent it away.
     Left(Exit),
     /// After [`MOST_STEPS`] it had still not left.
     Interrupted,
@@ -35,7 +38,7 @@ pub enum Fate {
 /// A ray that fibres have sent away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exit {
-    /// Of the last fibre that it met.
+    /// Where it met the last fibre.
     pub origin: DVec3,
     /// Unit vector.
     pub direction: DVec3,
@@ -44,10 +47,11 @@ pub struct Exit {
 }
 
 impl Ball {
-    /// The black ball of `radius` with a layer of `thickness` around it, whose fibres are of `planting` in units of that thickness.
+    /// The black ball of `radius` with a layer of `thickness` around it, whose fibres are planted by `planting`, in
+    /// units of that thickness. Panics where one of these sizes is not positive.
     ///
-    /// Middles of fibres are uniform in space, axes around the normal there. For a thin layer that makes about
-    /// 4 pi (radius / thickness)^2 times those of a patch of the period 1.
+    /// The middles of fibres are uniform in space, and their axes are distributed around the normal there. For a thin
+    /// layer that makes about 4 pi (radius / thickness)^2 times as many as in a patch of period 1.
     pub fn new(planting: &Planting, radius: f64, thickness: f64) -> Self {
         planting.check();
         assert!(radius > 0.0 && thickness > 0.0, "a ball and its layer have sizes: {radius}, {thickness}");
@@ -69,16 +73,18 @@ impl Ball {
         Self { forest, radius, thickness }
     }
 
+    /// The fibres.
     pub fn forest(&self) -> &Forest {
         &self.forest
     }
 
-    /// Radii between which light meets fibres.
+    /// The radii between which light meets fibres.
     pub fn layer(&self) -> [f64; 2] {
         [self.radius, self.radius + self.thickness]
     }
 
-    /// Follows a ray from outside of the ball along the unit vector `direction`, mirrored by each fibre that it meets in the layer.
+    /// Follows a ray from outside the ball along the unit vector `direction`, mirrored by each fibre that it meets in
+    /// the layer.
     pub fn trace(&self, mut origin: DVec3, mut direction: DVec3) -> Fate {
         let [inner, outer] = self.layer();
         let Some([enter, _]) = sphere(origin, direction, outer).filter(|[_, leave]| *leave > 0.0) else {
@@ -108,7 +114,7 @@ fn left(origin: DVec3, direction: DVec3, scatterings: u64) -> Fate {
     if scatterings == 0 { Fate::Missed } else { Fate::Left(Exit { origin, direction, scatterings }) }
 }
 
-/// Radii between which fibres' middles lie.
+/// The radii between which the middles of fibres lie.
 struct Shell {
     inner: f64,
     outer: f64,
@@ -124,13 +130,13 @@ impl Shell {
         4.0 / 3.0 * PI * (self.outer.powi(3) - self.inner.powi(3))
     }
 
-    /// The distance from the middle below which a share of the volume lies.
+    /// The distance from the middle within which a share of the volume lies.
     fn distance(&self, share: f64) -> f64 {
         (self.inner.powi(3) + share * (self.outer.powi(3) - self.inner.powi(3))).cbrt()
     }
 }
 
-/// Whether a fibre's axis is anywhere between the radii.
+/// Whether any part of a fibre's axis is between the radii.
 fn reaches(fibre: &Fibre, [inner, outer]: [f64; 2]) -> bool {
     let Fibre { middle, axis, half_length } = *fibre;
     let nearest = (-middle.dot(axis)).clamp(-half_length, half_length);

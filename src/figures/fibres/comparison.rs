@@ -15,11 +15,13 @@ pub struct Comparison {
     pub solved: f64,
     /// The fibres' R, and its standard error.
     pub albedo: [f64; 2],
-    /// The distance of the fibres' lobe from the slab's, relative: root of the integral of the difference's square over that of the slab's, from means
-    /// over 16 bins of sqrt(mu_o) by 8 of |phi|. What counting noise adds on average is subtracted; 0 where nothing is left.
+    /// The relative distance of the fibres' lobe from the slab's: the root of the integral of the squared difference
+    /// over that of the slab's square, both from means over 16 bins of sqrt(mu_o) by 8 of |phi|. What counting noise
+    /// adds on average is subtracted; 0 where nothing is left.
     pub distance: f64,
-    /// What was subtracted, as such a distance.
+    /// What was subtracted for noise, as such a distance.
     pub noise: f64,
+    /// The measurement itself.
     pub measured: Measured,
 }
 
@@ -28,7 +30,7 @@ pub const ROWS: usize = 16;
 pub const COLUMNS: usize = 8;
 
 impl Comparison {
-    /// Measures a patch and compares.
+    /// Measures a patch and compares it with the slab; panics as [`Goniometer::measure`] does.
     pub fn new(transport: &Transport, patch: &Patch, goniometer: &Goniometer) -> Self {
         let measured = goniometer.measure(patch);
         let (paths, mu) = (measured.paths() as f64, goniometer.mu);
@@ -52,7 +54,7 @@ impl Comparison {
     }
 }
 
-/// Reflected paths in the bins, elevations first.
+/// Numbers of reflected paths in the bins, elevation-major.
 fn coarse_counts(measured: &Measured) -> Vec<u64> {
     let mut counts = vec![0; ROWS * COLUMNS];
     for histogram in [&measured.counts.reflected_once, &measured.counts.reflected_more] {
@@ -66,7 +68,7 @@ fn coarse_counts(measured: &Measured) -> Vec<u64> {
     counts
 }
 
-/// Cosines and azimuths between which a bin lies.
+/// The cosines and the azimuths between which a bin lies.
 fn ranges(index: usize) -> [[f64; 2]; 2] {
     let first = |bin: usize, all: usize, bins: usize| [bin * all / bins, (bin + 1) * all / bins - 1];
     let [low, high] = first(index / COLUMNS, Histogram::MU_BINS, ROWS).map(Histogram::mu_range);
@@ -74,7 +76,7 @@ fn ranges(index: usize) -> [[f64; 2]; 2] {
     [[low[0], high[1]], [from[0], to[1]]]
 }
 
-/// Both sides of the plane of incidence.
+/// The solid angle of a bin, on both sides of the plane of incidence.
 fn solid_angle(index: usize) -> f64 {
     let [[low, high], [from, to]] = ranges(index);
     2.0 * (high - low) * (to - from)
@@ -84,7 +86,7 @@ fn solid_angle(index: usize) -> f64 {
 fn share(transport: &Transport, wi: DVec3, index: usize) -> f64 {
     let [[low, high], [from, to]] = ranges(index);
     let mut share = 0.0;
-    // Of sqrt(mu_o), in which the bins are of one width.
+    // Nodes in sqrt(mu_o), in which all bins have the same width.
     for (root, root_weight) in gauss_legendre(NODES, low.sqrt(), high.sqrt()) {
         let mu_o = root * root;
         for (phi, phi_weight) in gauss_legendre(NODES, from, to) {
@@ -95,7 +97,7 @@ fn share(transport: &Transport, wi: DVec3, index: usize) -> f64 {
     share
 }
 
-/// Enough for sums of [`share`] to be R to 1e-3 (alpha >= .2, mu >= .2).
+/// Nodes per axis of a bin, enough for the sum of all [`share`]s to be R to 1e-3 (alpha >= .2, mu >= .2).
 const NODES: usize = 6;
 
 #[cfg(test)]

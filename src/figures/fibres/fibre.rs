@@ -5,9 +5,11 @@ use glam::DVec3;
 /// A circular cylinder without its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
+    /// The middle of its axis.
     pub middle: DVec3,
     /// Unit vector.
     pub axis: DVec3,
+    /// Half of its length, along the axis.
     pub half_length: f64,
 }
 
@@ -21,18 +23,20 @@ pub struct Hit {
 }
 
 impl Hit {
-    /// Where a mirror there sends light that goes along `direction`, a unit vector.
+    /// The direction in which a mirror there sends light that goes along `direction`, a unit vector.
     pub fn mirrored(&self, direction: DVec3) -> DVec3 {
         (direction - 2.0 * direction.dot(self.normal) * self.normal).normalize()
     }
 }
 
 impl Fibre {
-    /// Where a ray from `origin` along the unit vector `direction` enters the cylinder of `radius` by its side, ahead of the origin.
+    /// The distance at which a ray from `origin` along the unit vector `direction` enters the cylinder of `radius` by
+    /// its side, ahead of the origin.
     ///
-    /// From within, nothing is met: sides are seen from outside alone, ends are open. To about 1e-13 of the larger one of the distance to the fibre's
-    /// middle and the radius: what the ray misses the axis by is formed as a vector, not as a difference of squares (Haines et al. 2019).
-    /// A ray that a fibre has just mirrored moves away from its axis and is not met by that fibre again.
+    /// From within, nothing is met: sides are seen only from outside, and ends are open. Accurate to about 1e-13 of the
+    /// distance to the fibre's middle or of the radius, whichever is larger: the ray's offset from the axis is formed
+    /// as a vector, not as a difference of squares (Haines et al. 2019). A ray that a fibre has just mirrored moves
+    /// away from its axis and does not meet that fibre again.
     pub fn enter(&self, radius: f64, origin: DVec3, direction: DVec3) -> Option<f64> {
         let from_middle = origin - self.middle;
         let (along, height) = (direction.dot(self.axis), from_middle.dot(self.axis));
@@ -57,10 +61,11 @@ impl Fibre {
         (off - off.dot(self.axis) * self.axis).normalize()
     }
 
-    /// Corners of the box, parallel to the axes, of the fibre of `radius` between two heights along its axis, ends included.
+    /// Corners of the axis-aligned box around the part of the fibre of `radius` between two heights along its axis,
+    /// ends included.
     pub fn bounds(&self, radius: f64, [low, high]: [f64; 2]) -> [DVec3; 2] {
         let [one, other] = [low, high].map(|height| self.middle + height * self.axis);
-        // A disc across the axis reaches so far along x, y, z.
+        // How far a disc across the axis reaches along x, y, z.
         let reach = radius * (DVec3::ONE - self.axis * self.axis).max(DVec3::ZERO).map(f64::sqrt);
         [one.min(other) - reach, one.max(other) + reach]
     }

@@ -15,21 +15,22 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
+/// The figure's file name.
 pub const NAME: &str = "fibres.svg";
 
-/// Roughnesses, a row of panels each; the cosines of `wi` are the columns.
+/// Roughnesses, one for each row of panels, and cosines of `wi`, one for each column.
 pub const ALPHAS: [f64; 4] = [0.2, 0.4, 0.7, 1.0];
 pub const MUS: [f64; 3] = [0.2, 0.5, 0.9];
-/// Diameters of fibres, in thicknesses of the layer: lobes of the first and of the last are drawn.
+/// Diameters of fibres, in thicknesses of the layer; only the lobes of the first and of the last are drawn.
 pub const DIAMETERS: [f64; 3] = [0.1, 0.03, 0.01];
-/// As long as the layer is thick.
+/// Length of fibres, in thicknesses of the layer.
 const LENGTH: f64 = 1.0;
 const FIBRES: usize = 200_000;
 const PATHS: u64 = 1 << 17;
 
-/// Where less light than this comes back, it is too few paths for a lobe's distance.
+/// Where less light than this comes back, there are too few paths for a lobe's distance.
 const DIM: f64 = 0.01;
-/// Bins of azimuths on either side of the plane of incidence over which lobes are means.
+/// Bins of azimuths on either side of the plane of incidence over which lobes are averaged.
 const SECTOR: usize = 4;
 
 const WORDS: Words = Words {
@@ -39,13 +40,14 @@ const WORDS: Words = Words {
     fitted: "thick fibres",
 };
 
-/// Steps of [`fibres_figure`] that are told.
+/// How often [`fibres_figure`] calls `step`.
 pub const fn steps() -> usize {
     ALPHAS.len() * DIAMETERS.len() * MUS.len()
 }
 
-/// Small multiples of the lobe f_r mu_o of explicit fibres and of the slab, alpha from 0.2 to 1 by mu from 0.2 to 0.9; the caption says how far
-/// R and the lobes are apart for each diameter. `step` is told of each measurement.
+/// Small multiples of the lobe f_r mu_o of explicit fibres and of the slab, alpha from 0.2 to 1 by mu from 0.2 to 0.9;
+/// the caption says how far apart R and the lobes are for each diameter. `step` is called after each measurement, from
+/// any of the working threads.
 pub fn fibres_figure(step: impl Fn() + Sync) -> Figure {
     let rows: Vec<(Vec<Panel>, Vec<[Comparison; 3]>)> =
         (0..ALPHAS.len()).into_par_iter().map(|at| row(at, &step)).collect();
@@ -70,10 +72,10 @@ pub fn fibres_figure(step: impl Fn() + Sync) -> Figure {
     Figure { name: NAME, svg, caption }
 }
 
-/// One roughness: a panel for each mu, and comparisons of each diameter.
+/// One roughness: a panel for each mu, and the comparisons of all diameters.
 fn row(at: usize, step: &(impl Fn() + Sync)) -> (Vec<Panel>, Vec<[Comparison; 3]>) {
     let alpha = ALPHAS[at];
-    // Of each measurement its own: what is by chance in one is not in the next.
+    // Each measurement has its own seed, so that chance in one is independent of chance in the next.
     let mut seed = (at * DIAMETERS.len() * MUS.len()) as u64;
     let transport = Transport::new(Slab::new(alpha), Resolution::default());
     let columns = DIAMETERS.map(|diameter| {
@@ -120,18 +122,18 @@ fn sector() -> f64 {
     Histogram::phi_range(SECTOR - 1)[1]
 }
 
-/// The mean of `lobe` over the sector on one side of `wo`, in the plane of incidence.
+/// The mean of `lobe` over the sector on one side of `wo`, which is in the plane of incidence.
 fn sector_mean(lobe: impl Fn(DVec3) -> f64, wo: DVec3) -> f64 {
     let nodes = gauss_legendre(4, 0.0, sector());
     nodes.iter().map(|(phi, weight)| weight * lobe(DMat3::from_rotation_z(*phi) * wo)).sum::<f64>() / sector()
 }
 
-/// Cells that reflect enough.
+/// The cells that reflect enough light.
 fn bright(comparisons: &[[Comparison; 3]]) -> impl Iterator<Item = &[Comparison; 3]> {
     comparisons.iter().filter(|cell| cell[0].solved > DIM)
 }
 
-/// What the caption says of the diameter `at`.
+/// What the caption says about the diameter of index `at`.
 fn apart(comparisons: &[[Comparison; 3]], at: usize) -> String {
     let relative = |cell: &[Comparison; 3]| cell[at].albedo[0] / cell[at].solved - 1.0;
     let error = |cell: &[Comparison; 3]| (cell[at].albedo[1] / cell[at].solved).powi(2);

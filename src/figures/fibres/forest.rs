@@ -6,7 +6,8 @@ use glam::DVec3;
 
 /// Fibres of one radius in a tree of boxes.
 ///
-/// Boxes around long slanting fibres would be mostly empty, and overlap: each fibre stands in several, of pieces of it.
+/// Boxes around long slanting fibres would be mostly empty, and overlap. So each fibre is in several boxes, each around
+/// a piece of it.
 #[derive(Clone)]
 pub struct Forest {
     fibres: Vec<Fibre>,
@@ -14,7 +15,7 @@ pub struct Forest {
     tree: Bvh<Piece>,
 }
 
-/// A fibre where it is in one box.
+/// The piece of a fibre that one box holds.
 #[derive(Clone)]
 struct Piece {
     fibre: Fibre,
@@ -35,8 +36,9 @@ impl Primitive for Piece {
 }
 
 impl Forest {
-    /// The tree of the fibres of `radius`, of which only what lies between the corners `domain` is sought. Pieces reach as far as `piece`, along all
-    /// axes but one; 1 / sqrt(length per volume), the fibres' mean distance, makes a fast tree.
+    /// The tree of the fibres of `radius`; rays look only for what lies between the corners `domain`. Pieces of fibres
+    /// reach as far as `piece` along all axes but one; 1 / sqrt(length per volume), the fibres' mean distance, makes a
+    /// fast tree. Panics unless `radius` and `piece` are positive.
     pub fn new(fibres: Vec<Fibre>, radius: f64, domain: [DVec3; 2], piece: f64) -> Self {
         assert!(piece > 0.0, "pieces have an extent: {piece}");
         assert!(radius > 0.0, "fibres have a radius: {radius}");
@@ -53,15 +55,17 @@ impl Forest {
         Self { fibres, radius, tree: Bvh::new(parts) }
     }
 
+    /// All fibres.
     pub fn fibres(&self) -> &[Fibre] {
         &self.fibres
     }
 
+    /// The radius of every fibre.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// The boxes in the tree.
+    /// How many boxes the tree has.
     pub fn boxes(&self) -> usize {
         self.tree.primitives().len()
     }
@@ -83,7 +87,8 @@ impl Forest {
     }
 }
 
-/// Heights along the axis between which the pieces of a fibre lie: none reaches further than `extent` along two axes.
+/// The heights along its axis between which each piece of a fibre lies: along two of the axes x, y, z, none reaches
+/// further than `extent`.
 fn pieces(fibre: &Fibre, extent: f64) -> impl Iterator<Item = [f64; 2]> {
     let mut reaches = fibre.axis.abs().to_array();
     reaches.sort_by(f64::total_cmp);
@@ -93,5 +98,5 @@ fn pieces(fibre: &Fibre, extent: f64) -> impl Iterator<Item = [f64; 2]> {
     (0..count as usize).map(move |k| [k, k + 1].map(|end| length * end as f64 / count - half_length))
 }
 
-/// More pieces than this would be a wrong unit somewhere.
+/// Most pieces of a fibre: more would mean a wrong unit somewhere.
 const MOST_PIECES: f64 = 1000.0;

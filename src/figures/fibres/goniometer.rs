@@ -9,7 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// What is measured.
+/// A measurement to be made: how many paths are sent at a patch, and from where.
 #[derive(Clone, Copy, Debug)]
 pub struct Goniometer {
     /// Cosine of `wi` to the normal, in (0, 1\].
@@ -23,11 +23,11 @@ pub struct Goniometer {
 /// Where paths left.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Measured {
-    /// Below is black: what is transmitted is absorbed there.
+    /// Paths by how they left the layer. Below it is black: what is transmitted is absorbed there.
     pub counts: Counts,
-    /// Paths that were given up: 0, or something is broken.
+    /// Paths that were given up: 0 unless something is broken.
     pub interrupted: u64,
-    /// Reflections of all paths.
+    /// Number of reflections, of all paths together.
     pub scatterings: u64,
 }
 
@@ -36,6 +36,7 @@ const CHUNK: u64 = 1 << 10;
 
 impl Goniometer {
     /// Sends all paths at a patch, on the threads of the current rayon pool: they enter anywhere, from any azimuth.
+    /// Panics unless `mu` is in (0, 1\] and there is a path.
     pub fn measure(&self, patch: &Patch) -> Measured {
         assert!(self.mu > 0.0 && self.mu <= 1.0, "mu is in (0, 1]: {}", self.mu);
         assert!(self.paths >= 1, "a measurement has paths: {}", self.paths);
@@ -68,7 +69,7 @@ impl Goniometer {
 }
 
 impl Measured {
-    /// All paths.
+    /// The number of all paths.
     pub fn paths(&self) -> u64 {
         self.counts.paths() + self.interrupted
     }

@@ -10,12 +10,13 @@ use rand_pcg::Pcg64;
 
 /// The layer 0 <= z <= 1 over a square in x and y, repeated without end; black below.
 ///
-/// Fibres are planted independently of each other, uniform in a layer thicker by half a fibre above and below, and the layer's faces cut
-/// them: so the layer is the same at every depth. Fibres may cross. Their sides are mirrors seen from outside, while their
-/// cut faces and ends are open and what is within them lets light pass (a share of 0.8 d of light starts there, d the diameter).
-/// Then the number of fibres that a ray enters along any straight way is a Poisson variable, whose mean per length is the
-/// SGGX extinction exactly, for fibres of any diameter and length; and so is what is scattered once. Only what a path remembers differs from the
-/// slab: that it came by a way without fibres, and which fibres it has met.
+/// Fibres are planted independently of each other, uniformly in a layer thicker by half a fibre above and below, and
+/// the layer's faces cut them: so the layer is the same at every depth. Fibres may cross. Their sides are mirrors seen
+/// from outside, while their cut faces and ends are open, and their insides let light pass (a share of 0.8 d of light
+/// starts there, d the diameter). Then the number of fibres that a ray enters on any straight way is a Poisson variable
+/// whose mean per length is exactly the SGGX extinction, for fibres of any diameter and length; and single scattering
+/// is exactly the slab's too. The only difference from the slab is what a path remembers: that the way it came by has
+/// no fibres, and which fibres it has met.
 #[derive(Clone)]
 pub struct Patch {
     forest: Forest,
@@ -25,17 +26,20 @@ pub struct Patch {
 /// How a path through a patch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passage {
-    /// Above where `direction` points up, else below; without `scatterings`, straight.
+    /// It left above where `direction`, a unit vector, points up, else below, after `scatterings`; with none, it went
+    /// straight.
     Left { direction: DVec3, scatterings: u64 },
     /// After [`MOST_STEPS`] it had still not left.
     Interrupted,
 }
 
-/// Of reflections and of crossings of the patch's sides: paths of hundreds are rare, so that this holds back broken numbers alone.
+/// Most reflections and crossings of the patch's sides on a path: as hundreds are rare already, only broken numbers
+/// reach this.
 pub const MOST_STEPS: u64 = 1_000_000;
 
 impl Patch {
-    /// The patch with `count` fibres in it, those of its neighbours that reach into it not counted. Its period follows from their density.
+    /// The patch with `count` fibres in it, not counting those of its neighbours that reach into it. Its period follows
+    /// from their density.
     pub fn new(planting: &Planting, count: usize) -> Self {
         planting.check();
         assert!(count > 0, "a patch has fibres");
@@ -56,7 +60,8 @@ impl Patch {
         Self::from_fibres(&fibres, radius, period, planting.spacing())
     }
 
-    /// The patch of these fibres, whose middles lie over the square of the sides `period` from the origin; [`Forest::new`] says what `piece` is.
+    /// The patch of these fibres, whose middles lie over the square with a corner at the origin and sides of `period`.
+    /// [`Forest::new`] says what `piece` is.
     pub fn from_fibres(fibres: &[Fibre], radius: f64, period: f64, piece: f64) -> Self {
         assert!(period > 0.0 && period.is_finite(), "a patch has a period: {period}");
         let domain = [DVec3::ZERO, DVec3::new(period, period, 1.0)];
@@ -64,10 +69,12 @@ impl Patch {
         Self { forest: Forest::new(seen, radius, domain, piece), period }
     }
 
+    /// The fibres, those of neighbours that reach into the patch included.
     pub fn forest(&self) -> &Forest {
         &self.forest
     }
 
+    /// The side of the square that repeats, in thicknesses of the layer.
     pub fn period(&self) -> f64 {
         self.period
     }
@@ -88,7 +95,8 @@ impl Patch {
         Passage::Interrupted
     }
 
-    /// The first fibre that light from a point of the patch meets, with the whole way to there; `None` where it leaves the layer before.
+    /// The first fibre that light from a point of the patch meets, at its distance from there; `None` where light
+    /// leaves the layer first.
     pub fn first(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let mut at = origin;
         let mut distance = 0.0;
@@ -103,7 +111,8 @@ impl Patch {
         None
     }
 
-    /// Goes on from `at` to the next fibre, out, or to the neighbour's other side of the patch, which looks the same.
+    /// Goes on from `at` to the next fibre, out of the layer, or across a side of the patch, to enter again by the
+    /// opposite one.
     fn advance(&self, at: &mut DVec3, direction: DVec3) -> Step {
         let (side, axis) = self.to_side(*at, direction);
         let face = match direction.z {
@@ -123,7 +132,7 @@ impl Patch {
         Step::Crossed
     }
 
-    /// How far it is to the side that a ray leaves by, and across which axis that lies.
+    /// The distance to the side by which a ray leaves, and the axis which that side is perpendicular to.
     fn to_side(&self, at: DVec3, direction: DVec3) -> (f64, usize) {
         let [x, y] = [0, 1].map(|axis| match direction[axis] {
             along if along > 0.0 => (self.period - at[axis]) / along,
@@ -140,7 +149,7 @@ enum Step {
     Crossed,
 }
 
-/// The fibre wherever it reaches into the patch: where it stands, and where neighbours' like it do.
+/// All images of the fibre that reach into the patch: the fibre itself, and its copies in neighbouring patches.
 fn images(fibre: Fibre, radius: f64, period: f64) -> impl Iterator<Item = Fibre> {
     let [low, high] = fibre.bounds(radius, [-fibre.half_length, fibre.half_length]);
     // low + k period <= period and high + k period >= 0.

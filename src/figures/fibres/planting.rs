@@ -6,20 +6,21 @@ use crate::physics::slab::sigma_from_alpha;
 use glam::DVec3;
 use rand::Rng;
 
-/// What fibres a layer has, in units of its thickness.
+/// Which fibres a layer has, in units of its thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planting {
-    /// Roughness of the slab that they are to be, in (0, 1].
+    /// Roughness of the slab that the fibres stand for, in (0, 1].
     pub alpha: f64,
-    /// > 0; small against 1 for the slab.
+    /// Diameter of the fibres, in (0, 1\]; to come near the slab, it must be small against 1.
     pub diameter: f64,
-    /// > 0.
+    /// Length of the fibres, in (0, 100\].
     pub length: f64,
     /// Equal seeds plant equal fibres.
     pub seed: u64,
 }
 
 impl Planting {
+    /// How the fibres' axes are distributed.
     pub fn axes(&self) -> Axes {
         Axes::new(sigma_from_alpha(self.alpha))
     }
@@ -29,18 +30,18 @@ impl Planting {
         self.axes().cover() / (self.diameter * self.length)
     }
 
-    /// Height above the layer's foot up to which fibres' middles may lie, and depth below it: 1 + this, and this.
+    /// How far above and below the layer the middles of fibres may lie.
     pub(super) fn overhang(&self) -> f64 {
         (self.length + self.diameter) / 2.0
     }
 
-    /// Fibres over a unit of area of which some reaches into the layer.
+    /// Number of fibres per unit of area that reach into the layer, at least in part.
     pub(super) fn reaching(&self) -> f64 {
         let axes = self.axes();
         self.number_density() * (1.0 + self.length * axes.mean_cosine() + self.diameter * axes.mean_sine())
     }
 
-    /// Mean distance of the fibres across them.
+    /// Mean distance between the fibres, across them.
     pub(super) fn spacing(&self) -> f64 {
         (self.diameter / self.axes().cover()).sqrt()
     }

@@ -10,18 +10,19 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// In units of the sphere's radius, which with its layer is 1, and of that thickness.
+/// The layer's thickness in units of the sphere's radius, which is 1 with the layer; then the fibres' sizes in
+/// thicknesses.
 const THICKNESS: f64 = 0.05;
 const DIAMETER: f64 = 0.03;
 const LENGTH: f64 = 1.0;
 const SEED: u64 = 1;
 
-/// The light that comes back, and with how much effort it is looked for.
+/// What lights the ball, and how many paths are spent.
 pub struct Lit {
-    /// Middle and half sides.
+    /// The window's middle, and its two half sides.
     pub window: [Vec3; 3],
     pub radiance: f32,
-    /// A pixel.
+    /// Paths per pixel.
     pub samples: u64,
 }
 
@@ -33,12 +34,13 @@ pub fn says(alpha: f64) -> String {
     )
 }
 
-/// At least 200,000 fibres.
+/// The ball of at least 200,000 fibres.
 fn planted(alpha: f64) -> Ball {
     Ball::new(&Planting { alpha, diameter: DIAMETER, length: LENGTH, seed: SEED }, 1.0 - THICKNESS, THICKNESS)
 }
 
-/// Renders a ball from +z: paths from the camera, mirrored until they leave, see the window or do not.
+/// Renders a ball seen from +z: paths from the camera are mirrored until they leave, and then see the window or miss
+/// it.
 pub fn picture(alpha: f64, lit: &Lit, side: u32, progress: &Progress) -> Result<DisplayImage, PlateError> {
     let ball = planted(alpha);
     let (done, stopped) = (AtomicU64::new(0), AtomicBool::new(false));
@@ -66,7 +68,8 @@ pub fn picture(alpha: f64, lit: &Lit, side: u32, progress: &Progress) -> Result<
     Ok(image.display(0.0, ToneCurve::Neutral))
 }
 
-/// Whether the path through a point of the picture, in [-1, 1] from left to right and from top to bottom, ends at the window.
+/// Whether the path through a point of the picture ends at the window. The point is in [-1, 1] from left to right and
+/// from top to bottom.
 fn sees(ball: &Ball, lit: &Lit, [x, y]: [f64; 2]) -> bool {
     let extent = (0.5 * f64::from(YFOV)).tan();
     let eye = DVec3::Z * f64::from(EYE);

@@ -8,7 +8,7 @@
 //! | `sweep_*` | their supplement's: all models over roughness |
 //! | `layers_*` | the fit, the slab and the walk of one sphere; the layering rules and the walk through both layers |
 //!
-//! Scenes are the program's own; in theirs the shapes are others.
+//! The scenes are the program's own; the shapes in the paper's figures are others.
 
 mod ball;
 mod page;
@@ -24,31 +24,34 @@ use crate::table::SheenTable;
 
 /// A picture to be made.
 pub struct Plate {
-    /// Of its file, without extension.
+    /// The name of its file, without extension.
     pub name: String,
-    /// What it is made with, a line each: enough to know whether one that is there is this one.
+    /// What it is made with, one line each: enough to tell whether a file that exists already is this plate.
     pub settings: Vec<(&'static str, String)>,
     make: Box<Make>,
 }
 
 type Make = dyn Fn(&Progress) -> Result<DisplayImage, PlateError> + Send;
 
-/// Told (done, all) steps of a plate, from any thread; says whether to go on.
+/// Called with the numbers of steps (done, all) of a plate, from any thread; returns whether to go on.
 pub type Progress<'a> = dyn Fn(u64, u64) -> bool + Sync + 'a;
 
-/// A plate was not made.
+/// Why a plate was not made.
 #[derive(Debug, thiserror::Error)]
 pub enum PlateError {
+    /// The asset was not read.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The reference renderer could not render the scene.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    /// [`Progress`] said to stop.
     #[error("interrupted: run the command again, and it goes on with this picture")]
     Interrupted,
 }
 
 impl Plate {
-    /// Renders it: seconds to a minute.
+    /// Renders the plate, which takes seconds to a minute.
     pub fn make(&self, progress: &Progress) -> Result<DisplayImage, PlateError> {
         (self.make)(progress)
     }
@@ -59,7 +62,7 @@ pub fn plates() -> Vec<Plate> {
     [scenes::plates(), spheres::prior_work(), spheres::sweep(), spheres::layers()].into_iter().flatten().collect()
 }
 
-/// What the reference renders of a scene.
+/// How the reference renders a scene.
 struct Shot {
     size: [u32; 2],
     samples: u64,
@@ -68,7 +71,7 @@ struct Shot {
 }
 
 impl Shot {
-    /// As lines for a plate.
+    /// The lines of a plate's settings.
     fn settings(&self) -> [(&'static str, String); 4] {
         let Self { size: [width, height], samples, exposure, options } = self;
         let Options { max_bounces, shadows, filter, specular } = options;

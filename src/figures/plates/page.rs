@@ -3,11 +3,11 @@
 use super::spheres::{ALPHA, ALPHAS, ANGLES, LAYER_ALPHAS};
 use crate::figures::Figure;
 
-/// Width at which pictures stand in the page, in its pixels.
+/// Widths at which pictures are shown on the page, in its pixels.
 const WIDE: u32 = 420;
 const SMALL: u32 = 140;
 
-/// The page, in Markdown, that shows the plates and these other figures; their files lie beside it.
+/// The page, in Markdown, that shows the plates and these other figures, whose files lie beside it.
 pub fn page(figures: &[Figure]) -> String {
     let clothes = table(
         &["no sheen", "alpha 0.2: fuzz", "alpha 0.7: towards dust"],

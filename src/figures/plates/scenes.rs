@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 const DRAPE: &[u8] = include_bytes!("../../../assets/drape.glb");
 const DUST: &[u8] = include_bytes!("../../../assets/dust.glb");
 
-/// Of the cloth.
+/// Colour of the cloth's sheen.
 const COLOR: Vec3 = Vec3::new(0.6, 0.55, 0.5);
 
 fn shot() -> Shot {
@@ -20,7 +20,7 @@ pub fn plates() -> Vec<Plate> {
     vec![cloth("none", None), cloth("low", Some(0.2)), cloth("high", Some(0.7)), dust()]
 }
 
-/// The cloth with a sheen of this alpha, or with none.
+/// The cloth with a sheen of this alpha, or without sheen.
 fn cloth(name: &str, alpha: Option<f32>) -> Plate {
     let says = alpha.map_or("no sheen".to_owned(), |alpha| format!("alpha {alpha}, C_sheen {COLOR}, layering gltf"));
     let make = move |progress: &super::Progress| {

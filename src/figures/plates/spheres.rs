@@ -13,11 +13,11 @@ use std::f32::consts::{PI, TAU};
 
 /// Angles between the directions to the window and to the camera, degrees.
 pub(super) const ANGLES: [f32; 3] = [0.0, 90.0, 130.0];
-/// Of the comparison with prior work.
+/// Roughness in the comparison with prior work.
 pub(super) const ALPHA: f32 = 0.5;
-/// Of the sweep.
+/// Roughnesses of the sweep.
 pub(super) const ALPHAS: [f32; 6] = [0.1, 0.25, 0.4, 0.55, 0.75, 1.0];
-/// Of the other comparisons.
+/// Roughnesses of the other comparisons.
 pub(super) const LAYER_ALPHAS: [f32; 3] = [0.25, 0.5, 1.0];
 
 /// The window's distance from the sphere's middle, its half side, and its radiance; the sphere's radius is 1.
@@ -28,7 +28,8 @@ const RADIANCE: f32 = 8.0;
 pub(super) const EYE: f32 = 6.0;
 pub(super) const YFOV: f32 = 0.4;
 
-/// A window in the direction of an angle from the camera, which is at +z: its middle, and its two half sides. It is not seen, and hides nothing.
+/// The window at an angle from the camera, which is at +z: its middle, and its two half sides. It is invisible, and
+/// hides nothing.
 pub(super) fn window(angle: f32) -> [Vec3; 3] {
     let middle = DISTANCE * Vec3::new(angle.sin(), 0.0, angle.cos());
     let back = -middle.normalize();
@@ -52,7 +53,7 @@ fn sphere() -> Mesh {
     Mesh { name: "sphere".to_owned(), positions: normals.clone(), normals, indices, ..Mesh::default() }
 }
 
-/// The sphere of a material, the window at an angle in degrees, and the camera.
+/// A sphere of this material, the window at an angle in degrees, and the camera.
 fn scene(material: Material, degrees: f32) -> Scene {
     let [middle, right, up] = window(degrees.to_radians());
     let corners = vec![middle - right - up, middle + right - up, middle + right + up, middle - right + up];

@@ -1,8 +1,9 @@
 //! A layer from thin ones.
 //!
-//! Let a layer reflect and transmit by the matrices R and T, whose entry (i, j) is the share of the light that comes in at node i and
-//! goes out at node j; it looks the same from below. Light that meets a second such layer behind the first goes to and fro between
-//! them, and the sum over all its ways is that of a geometric series (van de Hulst 1980, section 4.3):
+//! Let a layer reflect and transmit by the matrices R and T, whose entry (i, j) is the share of the light coming in at
+//! node i that goes out at node j; from below the layer is the same. Light that meets a second such layer behind the
+//! first bounces between the two, and the sum over all its paths is a geometric series (van de Hulst 1980, section
+//! 4.3):
 //!
 //! ```text
 //! T' = T (1 - R R)^-1 T,        R' = R + T R (1 - R R)^-1 T.
@@ -11,21 +12,23 @@
 //! Every term is positive where R and T are: nothing cancels, and small entries keep their digits.
 //!
 //! A thin layer grows by a slice dz, in which a share `loss` dz of the light at a node leaves it and `gain` dz is thrown back. From
-//! R' = gain - loss R - R loss + R gain R and T' = (R gain - loss) T follow the terms of their series in the thickness.
+//! the derivatives by thickness, R' = gain - loss R - R loss + R gain R and T' = (R gain - loss) T, follow the terms of
+//! the power series of R and T.
 
 use nalgebra::DMatrix;
 
-/// Largest share that a node loses in the layer that the series starts: its fifth power over 120 is what they leave out.
+/// Largest share that a node loses in the thin layer that the series is used for: its fifth power over 120 is what is
+/// left out.
 const THIN: f64 = 0.15;
 
 /// Terms of (1 - R R)^-1 below this share of the first are left out.
 const LEAST: f64 = 1e-15;
 
-/// How a layer of thickness 1 reflects and transmits, from its rates: `loss` of light onwards (the diagonal: what leaves a node per unit
-/// length; elsewhere minus what it passes on to the others), `gain` of light going back.
+/// How a layer of thickness 1 reflects and transmits, from its rates: `loss` of light going onwards (on the diagonal
+/// what leaves a node per unit length; elsewhere minus what it passes on to the others) and `gain` of light going back.
 pub struct Layer {
     pub reflected: DMatrix<f64>,
-    /// T - 1: what light loses on its way through, exact also for layers so thin that T itself would round it away.
+    /// T - 1: what light loses on its way through, exact even for layers so thin that T itself would round it away.
     pub change: DMatrix<f64>,
 }
 

@@ -13,14 +13,15 @@ const WIDEST: f64 = 0.25;
 /// How much wider the next panel is where panels grow.
 const GROWTH: f64 = 2.0;
 
-/// Panels grow from this many sigma^(2/3) above the horizon on. Light at mu scatters 1 / mu times and is turned by sigma each time: it
-/// comes to know its own height where sigma / sqrt(mu) = mu.
+/// Panels grow from this many sigma^(2/3) above the horizon. Light at mu scatters 1 / mu times and is turned by sigma
+/// each time, by sigma / sqrt(mu) in all, which is as much as its own elevation where sigma / sqrt(mu) = mu.
 const GRAZING_REACH: f64 = 3.0;
 
-/// The panel at the horizon is split so often towards it, in ratios of 4: functions behave as mu ln(mu) there.
+/// How often the panel at the horizon is split towards it, in ratios of 4: functions behave as mu ln(mu) there.
 const HORIZON_SPLITS: i32 = 2;
 
-/// In the last of these, polynomials are of this root of the angle, in which mu ln(mu) is smoother.
+/// In the panel next to the horizon, functions are polynomials in this root of the angle, in which mu ln(mu) is
+/// smoother.
 const HORIZON_POWER: i32 = 3;
 
 /// Gauss nodes and weights over \[-1, 1\], and the weights of the barycentric interpolation formula on them.
@@ -67,15 +68,15 @@ pub struct Mesh {
     pub first_wide: usize,
 }
 
-/// What is interpolated at one elevation: the nodes of a panel from `first` on, and their weights.
+/// How to interpolate at one elevation: the nodes of a panel, from `first` on, and their weights.
 pub struct Stencil {
     pub first: usize,
     pub weights: [f64; PER_PANEL],
 }
 
 impl Mesh {
-    /// A mesh for fibres of cross-section `sigma`, `refinement` times as fine as nature asks for (1 is the usual one); around the
-    /// elevation `ridge`, if any, as fine as the kernel is wide there.
+    /// A mesh for fibres of cross-section `sigma`, `refinement` times as fine as usual; around the elevation `ridge`,
+    /// if any, as fine as the kernel is wide there.
     pub fn new(sigma: f64, refinement: f64, ridge: Option<f64>) -> Self {
         let (mut edges, wide_from) = edges(sigma, refinement);
         if let Some(ridge) = ridge {
@@ -104,7 +105,7 @@ impl Mesh {
         self.edges.len() - 1
     }
 
-    /// Angles between which a panel lies.
+    /// The angles between which a panel lies.
     pub fn panel(&self, panel: usize) -> [f64; 2] {
         [self.edges[panel], self.edges[panel + 1]]
     }
@@ -132,7 +133,7 @@ impl Mesh {
         self.rule.lagrange(x)
     }
 
-    /// How a function of the elevation is had at the cosine `mu` in \[0, 1\].
+    /// How to interpolate a function of the elevation at the cosine `mu` in \[0, 1\].
     pub fn stencil(&self, mu: f64) -> Stencil {
         let angle = mu.asin();
         let panel = self.edges.partition_point(|edge| *edge <= angle).clamp(1, self.panels()) - 1;
@@ -149,13 +150,13 @@ impl Stencil {
 
 /// Where panels meet, and the angle from which on they grow.
 fn edges(sigma: f64, refinement: f64) -> (Vec<f64>, f64) {
-    // With this spacing of the nodes the kernel, some sigma wide, is resolved near the horizon.
+    // With this spacing of the nodes the kernel, which is about sigma wide, is resolved near the horizon.
     let narrow = PER_PANEL as f64 * sigma / 2.0;
     let widest = WIDEST / refinement;
     let mut width = f64::min(narrow / refinement, widest);
     let mut edges = vec![0.0];
     edges.extend((0..=HORIZON_SPLITS).rev().map(|split| width * 0.25_f64.powi(split)));
-    // Near the normal extinction changes where s = sigma: panels narrow down to that.
+    // Near the normal the extinction changes where s is about sigma: panels narrow down to that.
     let mut top = vec![FRAC_PI_2];
     let mut from_top = sigma;
     while from_top < WIDEST {
@@ -189,7 +190,7 @@ fn refined(edges: &[f64], ridge: f64, scale: f64) -> Vec<f64> {
     while let Some([low, high]) = waiting.pop() {
         let distance = f64::max(low - ridge, ridge - high).max(0.0);
         if high - low > f64::max(scale, distance) {
-            // At the ridge itself where it is well inside: the kernel has a cusp there.
+            // Split at the ridge itself where that is well inside: the kernel has a cusp there.
             let inside = (ridge - low).min(high - ridge) > 0.25 * (high - low);
             let middle = if inside { ridge } else { (low + high) / 2.0 };
             waiting.extend([[middle, high], [low, middle]]);

@@ -16,16 +16,18 @@
 //!    peak, about sigma wide, on a tail; where panels are wider than that, quadrature at nodes (Nystrom's method) would miss it, so that
 //!    near a node polynomials are integrated against the kernel itself (product integration). Per unit of depth a node then loses
 //!    sigma_t / mu and gets back P_ii / mu, passes on P_ij / mu and throws back Q_ij / mu. Nothing is absorbed: for mode 0 all rates of a
-//!    node sum to sigma_t, and the difference (sigma_t - P_ii) / mu is formed as the sum of all others, mostly positive terms. So light
-//!    that the peak leaves at its node counts as no scattering at all, and energy is kept to round-off.
+//!    node sum to sigma_t, and the difference (sigma_t - P_ii) / mu is formed as the sum of all others, mostly positive
+//!    terms. Light that the peak leaves at its own node thus counts as not scattered at all, and energy is conserved to
+//!    round-off.
 //! 3. **Depth.** `doubling` builds the layer from thin ones, in a form in which nothing cancels.
 //! 4. **What the matrices say.** Entry (i, j) of R is exact in mu_i and an average over mu_o against the polynomial of node j: sums over j
 //!    are accurate to the mesh's order, and with them the albedo. Where panels are wider than the kernel's peak, single entries are
 //!    not: a panel's polynomials end abruptly, and the peak blurs these ends. There (the wide panels) entries are replaced by their best
 //!    approximation by polynomials of degree 10 in the logarithm of the angle, which have no ends (`smooth`).
-//! 5. **Single scattering** is known exactly, and is taken out of R in the same discrete form in which it is in there. The rest, divided
-//!    by mode 0 of single scattering, varies slowly in both cosines: it is interpolated. Of the entries (i, j) and (j, i), which are equal
-//!    but for the error of (4), both places hold the one whose exact cosine is the larger: reciprocity holds to round-off.
+//! 5. **Single scattering** is known exactly, and is taken out of R in the same discrete form in which R contains it.
+//!    The rest, divided by mode 0 of single scattering, varies slowly in both cosines: it is interpolated. The entries
+//!    (i, j) and (j, i) are equal but for the error of (4): both are replaced by the one whose exact cosine is the
+//!    larger, so that reciprocity holds to round-off.
 //!
 //! Sources: Chandrasekhar 1960 (the equation); van de Hulst 1980 (doubling); Atkinson 1997 (Nystrom's method, product integration).
 
@@ -52,9 +54,10 @@ pub const LEAST_ALPHA: f64 = 5e-4;
 /// How finely the slab is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
-    /// Azimuthal modes, in \[1, [`MOST_MODES`]\]. One gives albedos; four leave 3e-4 of a lobe or less (relative L2, alpha >= 2/31).
+    /// Azimuthal modes, in \[1, [`MOST_MODES`]\]. One is enough for albedos; four leave out 3e-4 of a lobe or less
+    /// (relative L2, alpha >= 2/31).
     pub modes: usize,
-    /// Panels are so many times narrower than usual; in \[0.25, 16\]. The solver's time grows with its cube.
+    /// How many times narrower than usual the panels are, in \[0.25, 16\]. The solver's time grows with its cube.
     pub refinement: f64,
     /// A cosine in \[0, 1\] around which panels are narrow enough for the transmitted lobe of light that comes from there: a sharp ridge
     /// along its own elevation. Without it that ridge is blurred to the panel's width; reflected lobes don't need it.
@@ -67,7 +70,7 @@ impl Default for Resolution {
     }
 }
 
-/// How a slab reflects and transmits light from anywhere.
+/// How a slab reflects and transmits light from any direction.
 #[derive(Clone, Debug)]
 pub struct Transport {
     slab: Slab,
@@ -81,8 +84,9 @@ pub struct Transport {
 }
 
 impl Transport {
-    /// Solves the slab, of alpha >= [`LEAST_ALPHA`]. Takes some milliseconds a mode for alpha > .2, a tenth of a second at 1/31, 20 s at
-    /// .001. Meshes are made for a thickness of 1; up to 100, two of them agree to 1e-9 in R (alpha = .5).
+    /// Solves the slab, of alpha >= [`LEAST_ALPHA`]. Takes some milliseconds per mode for alpha > .2, a tenth of a
+    /// second at 1/31, 20 s at .001. Meshes are made for a thickness of 1; up to 100, two of them agree to 1e-9 in R
+    /// (alpha = .5). Panics where `slab` or `resolution` is outside its range.
     ///
     /// Against finer meshes, R is off by 2e-4 of itself or less, and lobes (relative L2) by 3e-4 for alpha >= 2/31 and mu >= 1e-3. At the
     /// horizon itself lobes are off by 5e-3: where both cosines go to 0 they have no common limit.
@@ -131,11 +135,13 @@ impl Transport {
         self.reflected.len()
     }
 
+    /// The slab that is solved.
     pub fn slab(&self) -> &Slab {
         &self.slab
     }
 
-    /// The share R of light of cosine `mu` in \[0, 1\] that leaves by the top. At `mu` = 0 the limit, as far as the mesh reaches.
+    /// The share R of light of cosine `mu` in \[0, 1\] that leaves by the top. At `mu` = 0 it is the limit, as far as
+    /// the mesh resolves it.
     pub fn albedo(&self, mu: f64) -> f64 {
         check_cosine(mu);
         self.mesh.stencil(mu).interpolate(|node| self.albedo[node]) * self.slab.single_scattering_albedo(mu)
@@ -162,7 +168,8 @@ impl Transport {
     }
 
     /// The azimuthal modes of f_r of two and more scatterings, symmetric in its arguments in \[0, 1\]: f_r is the sum over m of
-    /// (1 if m = 0, else 2) `modes[m]` cos(m (pi - phi)), phi = 0 towards `wi`. 0 where both are 0.
+    /// (1 if m = 0, else 2) `modes[m]` cos(m (pi - phi)), phi = 0 towards `wi`. 0 where both cosines are 0. Panics
+    /// where more modes are asked for than [`Self::modes`].
     pub fn multiple_modes(&self, mu_i: f64, mu_o: f64, modes: &mut [f64]) {
         check_cosine(mu_i);
         check_cosine(mu_o);
@@ -174,8 +181,9 @@ impl Transport {
         }
     }
 
-    /// The transmitted lobe, per steradian, all orders but the unscattered light: radiance times cosine, below, per unit of flux from
-    /// `wi`. Both are unit and point away from the slab, `wi`'s z >= 0 and `wo`'s <= 0. See [`Resolution::ridge`].
+    /// The transmitted lobe, per steradian, all orders except the unscattered light: radiance times cosine, below, per
+    /// unit of flux from `wi`. Both directions are unit and point away from the slab, `wi` with z >= 0 and `wo` with
+    /// z <= 0. See [`Resolution::ridge`].
     pub fn transmitted(&self, wi: DVec3, wo: DVec3) -> f64 {
         self.slab.single_transmission(wi, wo) + self.multiple_transmitted(wi, wo)
     }
@@ -193,8 +201,8 @@ impl Transport {
         cosine_sum(modes, -cos_azimuth(wi, wo)) * -wo.z
     }
 
-    /// The mesh's cosines in (0, 1), ascending, and their weights for integrals over the cosine: what is smooth in between for this slab
-    /// integrates well on them.
+    /// The mesh's cosines in (0, 1), ascending, and their weights for integrals over the cosine: the lobes of this slab
+    /// integrate well on them.
     pub fn cosines(&self) -> impl Iterator<Item = (f64, f64)> {
         self.mesh.nodes.iter().map(|node| node.mu).zip(self.mesh.weights.iter().copied())
     }
@@ -208,7 +216,7 @@ fn layer(slab: &Slab, mesh: &Mesh, mode: usize, rates: &Rates) -> Layer {
     let mut loss = DMatrix::from_fn(n, n, |i, j| if i == j { 0.0 } else { -rates.onwards[(i, j)] * per_length(i) });
     for i in 0..n {
         loss[(i, i)] = if mode == 0 {
-            // Nothing is absorbed: what the kernel does not leave at the node it sends elsewhere.
+            // Nothing is absorbed: what the kernel does not leave at the node, it sends elsewhere.
             gain.row(i).sum() - loss.row(i).sum()
         } else {
             (slab.medium().extinction_at(mesh.nodes[i]) - rates.onwards[(i, i)]) * per_length(i)
@@ -252,7 +260,7 @@ mod tests {
 
     #[test]
     fn rates_sum_to_the_extinction() {
-        // The sum over all nodes is what the diagonal relies on: product integration holds it by itself.
+        // The diagonal relies on the sum over all nodes, which product integration gets right by itself.
         for alpha in [1.0, 0.3, 0.1, 1.0 / 31.0] {
             let slab = Slab::new(alpha);
             let mesh = Mesh::new(slab.medium().sigma(), 1.0, None);

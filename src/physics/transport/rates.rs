@@ -19,7 +19,7 @@ const NARROWEST: f64 = 0.15;
 /// How much wider the next interval is.
 const SUB_GROWTH: f64 = 2.5;
 
-/// A panel is near where the kernel is not smooth: closer than this many of its widths.
+/// A panel is near, so that the kernel is not smooth on it, where its distance is less than this many of its widths.
 const NEAR: f64 = 1.0;
 
 /// What one azimuthal mode scatters from node i into the Lagrange polynomial of node j: the integral of
@@ -87,7 +87,7 @@ impl Integrals<'_> {
         products
     }
 
-    /// Graded towards the node's angle, in or beside the panel.
+    /// Integrals over intervals that narrow towards the node's angle, which lies in or beside the panel.
     fn near(&self, angle: f64, panel: usize) -> Products {
         let Self { medium, mesh, .. } = self;
         let mut products = [[0.0; PER_PANEL]; MOST_MODES];
