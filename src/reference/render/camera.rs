@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{Camera, Projection};
 
 /// A camera and its picture's size.

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::convex::{Convex, Outline, clip, cosine_share, edges};
 use super::luminance;
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
 use crate::table::Ltc;
 

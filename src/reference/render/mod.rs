@@ -1,6 +1,6 @@
 //! The picture by Monte Carlo.
 //!
-//! Rays go through a hierarchy of boxes ([`super::bvh`]); where they meet a surface, light is looked for on the polygons and in the lobes, and
+//! Rays go through a hierarchy of boxes ([`crate::bvh`]); where they meet a surface, light is looked for on the polygons and in the lobes, and
 //! weighed by multiple importance sampling. With shadows off and the lobes of real time the expected picture is the one that
 //! `velour render --msaa 1` computes in closed form; the other models and `--layering walk` show what that approximates.
 //!
@@ -17,7 +17,6 @@ mod path;
 mod stack;
 mod surface;
 mod texels;
-mod triangle;
 mod uniforms;
 mod world;
 

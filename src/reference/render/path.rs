@@ -15,7 +15,7 @@ use super::stack::{Stack, is_walked};
 use super::surface::Surface;
 use super::uniforms::Uniforms;
 use super::world::World;
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{PunctualLight, Settings};
 use crate::table::Ltc;
 

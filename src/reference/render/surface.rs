@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::world::{Hit, World};
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{Layering, Settings, SheenModel, TextureSlot};
 
 /// A point of a surface as it is seen from one direction, factors and textures multiplied.
