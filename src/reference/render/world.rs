@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::ReferenceError;
+use super::error::ReferenceError;
 use super::texels::texel;
 use crate::bvh::{Bvh, Meeting, Ray, Triangle};
 use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
