@@ -1,7 +1,8 @@
 //! Rays against the default scene's 80,000 triangles: building hierarchies over them, and following rays through.
 //!
-//! The library's has eight boxes a node, in `f32`, around triangles that are intersected in `f64`; beside it stands one of two boxes a node,
-//! by the same crate. Rays are a camera's, side by side, and those of light that is scattered from where they meet the scene.
+//! The library's has eight boxes a node, in `f32`, around triangles that are intersected in `f64`; beside it stands one
+//! of two boxes a node, by the same crate. Rays are a camera's, side by side, and those of light that is scattered from
+//! where they meet the scene.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -14,9 +15,10 @@ use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use velour::math::warp::unit_sphere;
 use velour::bvh::{Bvh, Primitive, Ray, Triangle};
-use velour::scene::{Instance, gltf};
+use velour::math::warp::unit_sphere;
+use velour::scene::Instance;
+use velour::scene::assets::DRAPE;
 
 /// Rays of each kind.
 const SIDE: usize = 128;
@@ -38,7 +40,7 @@ impl Boundable for Boxed {
 }
 
 fn triangles() -> Vec<Triangle> {
-    let scene = gltf::from_slice(include_bytes!("../assets/drape.glb"), "drape.glb").expect("the asset is read");
+    let scene = DRAPE.load().expect("the asset is read");
     let of_instance = |(index, instance): (usize, &Instance)| {
         let (mesh, world_from_mesh) = (&scene.meshes[instance.mesh], instance.world_from_mesh.as_dmat4());
         let place = |corner: u32| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());

@@ -1,7 +1,9 @@
-//! Rays against many things: a bounding volume hierarchy, over a scene's triangles or over anything else that has bounds.
+//! Rays against many things: a bounding volume hierarchy, over a scene's triangles or over anything else that has
+//! bounds.
 //!
-//! The boxes are `f32`, what they hold is intersected in `f64`. They are scaled into a cube of side twice `SPAN`, and each is padded by
-//! what `f32` may have rounded away, so that nothing is missed: the hierarchy says where to look, the primitives say what is met.
+//! The boxes are `f32`, what they hold is intersected in `f64`. They are scaled into a cube of side twice `SPAN`, and
+//! each is padded by what `f32` may have rounded away, so that nothing is missed: the hierarchy says where to look, the
+//! primitives say what is met.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -13,7 +15,8 @@ use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// Half the scene's size in the tree's units: the tree passes over boxes that a ray leaves within 1e-4 of where it starts.
+/// Half the scene's size in the tree's units: the tree passes over boxes that a ray leaves within 1e-4 of where it
+/// starts.
 const SPAN: f64 = (1 << 20) as f64;
 /// Padding of a box: sixteen roundings of a coordinate, and those of a ray that is a few times as long as the scene.
 const PADDING: f32 = 2e-6 * SPAN as f32;
@@ -47,8 +50,8 @@ pub trait Primitive {
     /// Least and greatest corner of a box around it.
     fn bounds(&self) -> [DVec3; 2];
 
-    /// The distance along the ray at which it is met, negative behind the origin, and the place; none where the ray misses it. Of several
-    /// meetings the primitive chooses one.
+    /// The distance along the ray at which it is met, negative behind the origin, and the place; none where the ray
+    /// misses it. Of several meetings the primitive chooses one.
     fn meet(&self, ray: &Ray) -> Option<(f64, Self::Place)>;
 }
 
@@ -140,7 +143,8 @@ impl<P: Primitive> Bvh<P> {
         nearest
     }
 
-    /// Visits the meetings between two distances, in any order, until `visit` breaks off: gives the value that it broke off with.
+    /// Visits the meetings between two distances, in any order, until `visit` breaks off: gives the value that it broke
+    /// off with.
     pub fn visit<B>(
         &self,
         ray: &Ray,
@@ -163,7 +167,8 @@ impl<P: Primitive> Bvh<P> {
         stopped
     }
 
-    /// The ray in the tree's units, from where it enters a sphere around everything, and the distance to there; none where it misses.
+    /// The ray in the tree's units, from where it enters a sphere around everything, and the distance to there; none
+    /// where it misses.
     fn unit_ray(&self, ray: &Ray, far: f64) -> Option<(f64, obvhs::ray::Ray)> {
         // The cube lies in a sphere of sqrt(3) times half its side.
         const RADIUS_SQUARE: f64 = 3.0001 * SPAN * SPAN;
@@ -285,7 +290,8 @@ mod tests {
         (0..count).map(ball).collect()
     }
 
-    /// Rays towards balls, at random and along the axes (with zeros of either sign), from far away and from a hair in front of them.
+    /// Rays towards balls, at random and along the axes (with zeros of either sign), from far away and from a hair in
+    /// front of them.
     fn rays(balls: &[Ball], scale: f64) -> Vec<Ray> {
         let mut rng = Pcg64::seed_from_u64(6);
         let ray = |k: usize| {

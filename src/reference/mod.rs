@@ -1,4 +1,5 @@
-//! The picture in `f64`, by means that share nothing with the shaders: the exact form factor of a polygon, and path tracing.
+//! The picture in `f64`, by means that share nothing with the shaders: the exact form factor of a polygon, and path
+//! tracing.
 
 pub mod polygon;
 #[cfg(feature = "scenes")]
