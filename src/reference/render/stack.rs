@@ -1,11 +1,10 @@
 //! The layer of fibres itself, by a random walk: light is followed through the layer, to the base and back, through all
 //! orders of scattering.
 //!
-//! Fibres tint what they scatter by `C_sheen`, once on each way through the layer, so that the layer alone reflects C
-//! R; what passes without being scattered keeps its colour. At each scattering event, in the fibres or on the base,
-//! directions sampled on the lights are weighed against the direction in which the path leaves by the balance
-//! heuristic; the density of that direction is known: that of the last event, times the share of light that leaves the
-//! layer after it.
+//! Fibres tint what they scatter by `C_sheen`, once on each way through the layer, so that by itself the layer reflects
+//! C R; what passes without being scattered keeps its colour. At each scattering event, in the fibres or on the base,
+//! the balance heuristic weighs directions sampled on the lights against the direction in which the path leaves, whose
+//! density is known: that of the last event, times the share of light that leaves the layer after it.
 
 use glam::{DVec3, Vec3};
 use rand::Rng;
