@@ -16,54 +16,39 @@ use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
+use velour::bvh::{Bvh, Primitive, Ray, Triangle};
 use velour::math::warp::unit_sphere;
-use velour::reference::bvh::{Bvh, Primitive, Ray};
-use velour::scene::gltf;
+use velour::scene::Instance;
+use velour::scene::assets::DRAPE;
 
 /// Rays of each kind.
 const SIDE: usize = 128;
 
-#[derive(Clone)]
-struct Triangle([DVec3; 3]);
+/// A triangle's box, for the hierarchy of two boxes a node.
+struct Boxed(Aabb);
 
-impl Primitive for Triangle {
-    type Place = ();
-
-    fn bounds(&self) -> [DVec3; 2] {
-        let [a, b, c] = self.0;
-        [a.min(b).min(c), a.max(b).max(c)]
-    }
-
-    fn meet(&self, ray: &Ray) -> Option<(f64, ())> {
-        let [a, b, c] = self.0;
-        let (first, second) = (b - a, c - a);
-        let across = ray.direction.cross(second);
-        let inverse = 1.0 / first.dot(across);
-        let to_origin = ray.origin - a;
-        let u = to_origin.dot(across) * inverse;
-        let over = to_origin.cross(first);
-        let v = ray.direction.dot(over) * inverse;
-        let distance = second.dot(over) * inverse;
-        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 1e-9).then_some((distance, ()))
+impl Boxed {
+    fn new(triangle: &Triangle) -> Self {
+        let [low, high] = triangle.bounds().map(|corner| Vec3A::from(corner.as_vec3()));
+        Self(Aabb::new(low - 1e-5, high + 1e-5))
     }
 }
 
-impl Boundable for Triangle {
+impl Boundable for Boxed {
     fn aabb(&self) -> Aabb {
-        let [low, high] = self.bounds();
-        Aabb::new(Vec3A::from(low.as_vec3()) - 1e-5, Vec3A::from(high.as_vec3()) + 1e-5)
+        self.0
     }
 }
 
 fn triangles() -> Vec<Triangle> {
-    let scene = gltf::from_slice(include_bytes!("../assets/drape.glb"), "drape.glb").expect("the asset is read");
-    let of_instance = |instance: &velour::scene::Instance| {
-        let (mesh, world_from_mesh) = (scene.meshes[instance.mesh].clone(), instance.world_from_mesh.as_dmat4());
-        let place = move |corner: u32| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());
-        let triangles = scene.meshes[instance.mesh].indices.as_chunks::<3>().0.to_vec();
-        triangles.into_iter().map(move |corners| Triangle(corners.map(&place))).collect::<Vec<_>>()
+    let scene = DRAPE.load().expect("the asset is read");
+    let of_instance = |(index, instance): (usize, &Instance)| {
+        let (mesh, world_from_mesh) = (&scene.meshes[instance.mesh], instance.world_from_mesh.as_dmat4());
+        let place = |corner: u32| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());
+        let triangles = mesh.indices.as_chunks::<3>().0.iter().zip(0..);
+        triangles.map(|(corners, at)| Triangle::new(corners.map(place), index as u32, at)).collect::<Vec<_>>()
     };
-    scene.instances.iter().flat_map(of_instance).collect()
+    scene.instances.iter().enumerate().flat_map(of_instance).collect()
 }
 
 /// The camera's rays, and a random one from each place where they meet the scene.
@@ -85,7 +70,7 @@ fn nearest_of_two(tree: &Bvh2, triangles: &[Triangle], ray: &Ray) -> f64 {
     let mut nearest = f64::INFINITY;
     tree.ray_traverse(obvhs::ray::Ray::new(origin, direction, 0.0, f32::INFINITY), &mut RayHit::none(), |_, index| {
         let triangle = &triangles[tree.primitive_indices[index] as usize];
-        if let Some((distance, ())) = triangle.meet(ray).filter(|(distance, ())| *distance < nearest) {
+        if let Some((distance, _)) = triangle.meet(ray).filter(|(distance, _)| (0.0..nearest).contains(distance)) {
             nearest = distance;
         }
         nearest as f32 * 1.000_01
@@ -99,7 +84,10 @@ fn bench(criterion: &mut Criterion) {
     group.sample_size(20);
     group.throughput(Throughput::Elements(triangles.len() as u64));
     group.bench_function("build", |bencher| bencher.iter(|| Bvh::new(black_box(triangles.clone()))));
-    let two = || build_bvh2(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+    let two = || {
+        let boxes: Vec<Boxed> = triangles.iter().map(Boxed::new).collect();
+        build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
+    };
     group.bench_function("build, two boxes a node", |bencher| bencher.iter(two));
     let (bvh, tree) = (Bvh::new(triangles.clone()), two());
     for (name, rays) in ["camera", "scattered"].into_iter().zip(rays(&bvh)) {

@@ -16,6 +16,7 @@
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; path tracing | path tracing: `gpu` or `cli` |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr in and out, tone curves; how two pictures differ, FLIP with `cli` | `gpu` or `cli` |
+//! | `bvh` | the hierarchy over a scene's triangles, for rays | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
@@ -57,6 +58,8 @@
 //!
 //! Local frame: z is the normal, x is `wi` projected on the surface. `a_from_b` names a transform, `p_world` a point.
 
+#[cfg(feature = "scenes")]
+pub mod bvh;
 #[cfg(feature = "cli")]
 pub mod figures;
 pub mod fit;

@@ -1,7 +1,6 @@
-//! The picture in `f64`, by means that share nothing with the shaders: the exact form factor of a polygon, and path tracing.
+//! The picture in `f64`, by means that share nothing with the shaders: the exact form factor of a polygon, and path
+//! tracing.
 
-#[cfg(feature = "scenes")]
-pub mod bvh;
 pub mod polygon;
 #[cfg(feature = "scenes")]
 mod render;

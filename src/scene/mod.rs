@@ -2,6 +2,8 @@
 //!
 //! A scene is plain data. [`gltf`] makes one from a file; whoever draws it reads it and changes nothing.
 
+#[cfg(feature = "cli")]
+pub mod assets;
 mod bounds;
 mod camera;
 mod convex_parts;

@@ -80,7 +80,7 @@ fn past_root(tokens: &[TokenTree], at: usize, depth: usize) -> Option<usize> {
 }
 
 /// How many `super::` these tokens start with, and how many tokens they are.
-fn climb(tokens: &[TokenTree]) -> (usize, usize) {
+pub fn climb(tokens: &[TokenTree]) -> (usize, usize) {
     let mut levels = 0;
     let mut rest = tokens;
     while rest.first().is_some_and(|first| is_ident(first, "super")) && is_path_separator(&rest[1..]) {
@@ -91,7 +91,7 @@ fn climb(tokens: &[TokenTree]) -> (usize, usize) {
 }
 
 /// The first names of a path that goes on with these tokens, or of all paths of a group.
-fn named(tokens: &[TokenTree]) -> Vec<(usize, String)> {
+pub fn named(tokens: &[TokenTree]) -> Vec<(usize, String)> {
     match tokens.first() {
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => {
             let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
@@ -102,7 +102,7 @@ fn named(tokens: &[TokenTree]) -> Vec<(usize, String)> {
     }
 }
 
-fn is_ident(token: &TokenTree, text: &str) -> bool {
+pub fn is_ident(token: &TokenTree, text: &str) -> bool {
     matches!(token, TokenTree::Ident(ident) if ident == text)
 }
 
@@ -110,7 +110,7 @@ fn is_comma(token: &TokenTree) -> bool {
     matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',')
 }
 
-fn is_path_separator(tokens: &[TokenTree]) -> bool {
+pub fn is_path_separator(tokens: &[TokenTree]) -> bool {
     let colons = tokens.iter().take(2).filter(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == ':'));
     colons.count() == 2
 }

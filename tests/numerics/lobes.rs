@@ -118,10 +118,15 @@ pub fn message(wrong: &(dyn Fn() + std::panic::RefUnwindSafe)) -> String {
 /// Fails unless a model panics on mistakes in its calls.
 pub fn assert_calls_are_checked(model: &(dyn Bsdf + std::panic::RefUnwindSafe)) {
     let up = direction(0.5, 0.0);
-    for wrong in [DVec3::NAN, DVec3::ZERO, up * 1.01, DVec3::new(f64::INFINITY, 0.0, 0.5)] {
+    // The square of the length may be off by 1e-5.
+    let [long, short] = [1.0 + 6e-6, 1.0 - 6e-6].map(|length| length * up);
+    for wrong in [DVec3::NAN, DVec3::ZERO, long, short, up * 1.01, DVec3::new(f64::INFINITY, 0.0, 0.5)] {
         assert!(message(&|| _ = model.evaluate(wrong, up)).contains("a direction is unit"));
         assert!(message(&|| _ = model.pdf(up, wrong)).contains("a direction is unit"));
         assert!(message(&|| _ = model.sample(wrong, [0.5; 2])).contains("a direction is unit"));
+    }
+    for right in [1.0 + 4e-6, 1.0 - 4e-6].map(|length| length * up) {
+        assert!([model.evaluate(right, right), model.pdf(right, right)].iter().all(|value| value.is_finite()));
     }
     for wrong in [[1.0, 0.5], [0.5, -0.1], [f64::NAN, 0.5]] {
         assert!(message(&|| _ = model.sample(up, wrong)).contains("uniform numbers are in [0, 1)"));

@@ -244,7 +244,7 @@ fn machines_without_a_device_or_a_display() {
     let hint = "no graphics adapter";
     bench.refused(&mut deviceless(bench.command("render scene.glb -o out.png --adapter llvmpipe")), 3, hint);
     bench.refused(&mut bench.command("view scene.glb"), 3, "display");
-    // What is wrong with the input is said first, on any machine.
+    // What is wrong with the input comes first, on any machine.
     bench.refused(&mut deviceless(bench.command("render gone.glb -o out.png")), 2, "gone.glb");
 }
 

@@ -36,7 +36,7 @@ fn stage(material: Material) -> Stage {
     Stage::new(vec![floor, window], looking([0.2, 0.9, 2.4], ORIGIN))
 }
 
-/// The base, every lobe of it, and no emission.
+/// All lobes, but no emission.
 fn reflected() -> Settings {
     let lobes = Lobes { emission: false, ..Lobes::default() };
     Settings { lobes, lights_visible: false, ..Settings::default() }
@@ -85,7 +85,7 @@ fn a_uniform_environment_is_exact() {
     }
 }
 
-/// Radiance of the middle pixels of a floor of these materials, a row of patches each, under a ceiling of radiance 1 that covers the hemisphere.
+/// Radiance of a floor in strips of these materials, under a ceiling of radiance 1 that covers the hemisphere.
 fn furnace(materials: Vec<Material>, settings: &Settings) -> Vec<Vec3> {
     let count = materials.len();
     let mut things: Vec<Thing> = Vec::new();
@@ -128,7 +128,7 @@ fn no_rule_gains_energy_in_a_furnace() {
             }
         }
     }
-    // The ruler: without a rule there is a gain.
+    // The ruler itself: without a rule there is a gain.
     let pixels = furnace(vec![white(0.0, 0.5, 0.5, 1.0, 1.0); 3], &settings(Layering::None));
     assert!(pixels.iter().map(|pixel| pixel.max_element()).fold(0.0, f32::max) > 1.2);
 }

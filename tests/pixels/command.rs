@@ -36,7 +36,7 @@ fn hold(stage: &Stage, flags: &str, table: &SheenTable, settings: &Settings) {
 #[test]
 fn a_linear_file_is_the_designs_sum_at_pixel_centres() {
     hold(&small_stage(), "", &SheenTable::embedded(), &sheen_alone());
-    // Exposure and tone are no part of it, whatever is asked.
+    // Exposure and tone curve have no effect on it, whatever the flags say.
     hold(&small_stage(), "--exposure 3", &SheenTable::embedded(), &sheen_alone());
     let changed = changed(Some(0.8), Some([0.2, 0.4, 1.0].into()), sheen_alone());
     hold(&small_stage(), "--alpha 0.8 --sheen-color 0.2,0.4,1", &SheenTable::embedded(), &changed);

@@ -18,18 +18,19 @@ pub static GPU: LazyLock<Gpu> =
 
 pub const SIZE: [u32; 2] = [96, 64];
 
-/// Of the truth: what rounding in 32-bit floats leaves of positions, directions, the form factor and the table's lookup.
-/// Measured on lavapipe: 3e-6 on planes, 2.4e-5 where normals are interpolated.
+/// Tolerance relative to the truth: rounding in 32-bit floats of positions, directions, the form factor and the table's
+/// lookup. Measured on lavapipe: 3e-6 on planes, 2.4e-5 where normals are interpolated.
 const RELATIVE: f64 = 5e-5;
-/// Of the picture's greatest truth: at a light's plane and at the horizon little is left of differences of large numbers.
-/// Measured: 2.4e-6.
+/// Tolerance relative to the picture's greatest radiance: at a light's plane and at the horizon the result is a small
+/// difference of large numbers. Measured: 2.4e-6.
 const OF_GREATEST: f64 = 5e-6;
-/// Drivers may move corners to a grid of at least 16 a pixel (Vulkan's least `subPixelPrecisionBits`), half a step at most,
-/// and the places that they interpolate move with them: SwiftShader does, lavapipe interpolates between the true corners.
+/// Drivers may move corners to a grid of at least 16 steps a pixel (Vulkan's least `subPixelPrecisionBits`), by half a
+/// step at most, and what they interpolate moves with the corners: SwiftShader does so, lavapipe interpolates between
+/// the true corners.
 pub const CORNER_SHIFT: f64 = 0.5 / 16.0;
-/// Within this many pixels of an edge the centre may be found on either side of it: CORNER_SHIFT and some.
+/// A pixel's centre this near to an edge, in pixels, may fall on either side of it: CORNER_SHIFT and some more.
 const EDGE: f64 = 0.05;
-/// So much of a picture may be left out as edges. Stages are made of few large things.
+/// The share of a picture that may be left out as edges. Stages are made of a few large things.
 const EDGES_MOST: f64 = 0.05;
 
 /// Settings with another sheen for every material.
@@ -37,7 +38,7 @@ pub fn changed(alpha: Option<f32>, sheen_color: Option<Vec3>, settings: Settings
     Settings { overrides: Overrides { alpha, sheen_color, ..Overrides::default() }, ..settings }
 }
 
-/// Light from lights that are not seen, scattered by the sheen alone.
+/// The sheen alone, under lights that are not drawn.
 pub fn sheen_alone() -> Settings {
     let lobes = Lobes { sheen: true, diffuse: false, specular: false, emission: false };
     Settings { lobes, lights_visible: false, ..Settings::default() }
@@ -48,7 +49,8 @@ pub fn linear(scene: &Scene, table: &SheenTable, settings: &Settings, size: [u32
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, settings)).unwrap()
 }
 
-/// Renders the stage, as a scene made here and as a file read, and holds both pictures against the truth and the reference.
+/// Renders the stage, both as a scene made here and as a file read in, and holds both pictures against the truth and
+/// the reference.
 pub fn hold(stage: &Stage, settings: &Settings) {
     let table = SheenTable::embedded();
     let truth = Truth::new(stage, &table, settings, SIZE);
@@ -61,7 +63,7 @@ pub fn hold(stage: &Stage, settings: &Settings) {
     }
 }
 
-/// What the truth says about the pixels of a picture: none at edges, else the radiance at the centre.
+/// What the truth says about each pixel of a picture: the radiance at its centre, or none at edges.
 fn expected(truth: &Truth, size: [u32; 2]) -> Vec<Option<DVec3>> {
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
     let thing = |[x, y]: [f64; 2], [right, down]: [f64; 2]| truth.at([x + right, y + down]).map(|hit| hit.thing);
@@ -104,7 +106,7 @@ pub fn differences(picture: &LinearImage, truth: &Truth) -> Result<(), String> {
         let difference = (Vec3::from(*pixel).as_dvec3() - expected).abs();
         let allowed = RELATIVE * expected + OF_GREATEST * greatest;
         let place = [index as u32 % size[0], index as u32 / size[0]];
-        // Not a number is not at most what is allowed either.
+        // Put so that what is not a number is wrong too.
         if !difference.cmple(allowed).all() {
             let allowed = allowed + slack(truth, place.map(|at| f64::from(at) + 0.5));
             if !difference.cmple(allowed).all() {

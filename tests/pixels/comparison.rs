@@ -146,14 +146,14 @@ fn the_heat_map_shows_where() {
         assert_eq!([heat.width, heat.height], [WIDTH, HEIGHT]);
         let sum =
             |x: u32, y: u32| heat.pixels[(y * WIDTH + x) as usize].iter().map(|byte| u32::from(*byte)).sum::<u32>();
-        // Twelve pixels off, no filter reaches: magma's black is (0, 0, 4).
+        // Twelve pixels away, where no filter reaches: magma's black is (0, 0, 4).
         for (x, y) in [(33, 5), (59, 0), (5, 33), (59, 39)] {
             assert!(sum(x, y) == 4, "{pair}: {x},{y}: {}", sum(x, y));
         }
         assert!(sum(8, 8) > 350, "{pair}: {}", sum(8, 8));
         assert_eq!(figures(&bench, &format!("{pair} --heatmap heat.png"))["heatmap"], "heat.png");
     }
-    // It is written where the comparison fails too: that is when it is wanted.
+    // It is written when the comparison fails, too: that is when it is wanted.
     std::fs::remove_file(bench.path("heat.png")).unwrap();
     let Output { status, .. } =
         bench.command("compare bad.exr good.exr --heatmap heat.png --fail-above 0").output().unwrap();
@@ -303,6 +303,6 @@ fn flags_of_compare_out_of_range() {
         bench.refused(&mut bench.command(&format!("compare a.png b.png {flags}")), 2, hint);
     }
     bench.refused(&mut bench.command("compare a.png"), 2, "required");
-    // A bad place for the heat map is told before pictures are read.
+    // A bad place for the heat map is reported before pictures are read.
     bench.refused(&mut bench.command("compare gone.png b.png --heatmap missing/heat.png"), 2, "missing");
 }

@@ -1,7 +1,8 @@
-//! Both scenes of our own, small, against pictures kept in `tests/golden/`: a guard against change, no proof of anything.
+//! Both scenes of our own, small, against pictures kept in `tests/golden/`: a guard against change, no proof of
+//! anything.
 //!
-//! After a change that is meant, `VELOUR_BLESS=1 cargo test --test pixels golden` writes the pictures anew: look at them,
-//! and commit them by themselves.
+//! After a change that is intended, `VELOUR_BLESS=1 cargo test --test pixels golden` writes the pictures anew: look at
+//! them, and commit them by themselves.
 
 use std::path::{Path, PathBuf};
 
@@ -14,9 +15,10 @@ use super::compare::GPU;
 
 const SIZE: [u32; 2] = [192, 108];
 
-/// How many pixels may differ by more than so many of 255. Drivers move corners to grids of their own, and in a small
-/// picture of 30,000 triangles most pixels are seams between some: SwiftShader and lavapipe differ by more than 2 in 932
-/// pixels of the drape and 259 of the dusty form, by more than 16 in 217 and 17, and by 89 and 118 at most.
+/// Pairs: how many pixels may differ by more than this step, of 255. Drivers move corners to grids of their own, and in
+/// a small picture of 30,000 triangles most pixels lie on seams between triangles: SwiftShader and lavapipe differ by
+/// more than 2 in 932 pixels of the drape and 259 of the dusty form, by more than 16 in 217 and 17, and by 89 and 118
+/// at most.
 const MOST: [(u8, usize); 3] = [(2, 1200), (16, 300), (128, 0)];
 
 fn root() -> &'static Path {

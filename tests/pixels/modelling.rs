@@ -1,5 +1,5 @@
-//! How far real time is from the layer that it stands for: the fit from the slab, and the layering rules from light that goes through
-//! both layers. The README quotes the figures.
+//! How far real time is from the layer that it stands for: the fit from the slab, and the layering rules from light
+//! that goes through both layers. The README quotes the figures.
 
 use glam::{Mat4, Vec3};
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
@@ -44,7 +44,7 @@ fn pictured(base: &Material, alpha: f32, overrides: Overrides, lobes: Lobes, sam
     reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
 }
 
-/// Of all light in the second picture: how much is elsewhere in the first, and how much there is more.
+/// The mean absolute error and the mean error of the first picture, each over the mean of the second.
 fn apart(found: &Picture, truth: &Picture) -> [f64; 2] {
     let (mut off, mut more, mut all) = (0.0, 0.0, 0.0);
     for (found, truth) in found.radiance.pixels.iter().zip(&truth.radiance.pixels) {
@@ -70,7 +70,7 @@ fn the_fit_is_as_far_from_the_slab_as_is_said() {
     }
     let readme = include_str!("../../README.md");
     for ((alpha, said), [off, _]) in FIT.iter().zip(found) {
-        // What noise leaves of the figure.
+        // How far noise leaves the figure uncertain.
         assert!((off / said - 1.0).abs() < 0.1, "alpha {alpha}: {off} is not {said}");
         let quoted = format!("alpha {alpha}: {:.1}%", 100.0 * said);
         assert!(readme.contains(&quoted), "README.md does not say '{quoted}'");
@@ -102,7 +102,7 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
         }
     }
     let [gltf, openpbr, reciprocal, none] = greatest;
-    // Of one colour and full weight the first two rules are one.
+    // With one colour and full weight the first two rules are the same.
     assert!((gltf - openpbr).abs() < 1e-3, "{gltf} {openpbr}");
     assert!(reciprocal < none && gltf < none, "{greatest:?}");
 }

@@ -44,7 +44,8 @@ fn eye() -> Mat4 {
     looking([0.4, 1.1, 2.6], ORIGIN)
 }
 
-/// A part of a cylinder about the y axis that bulges towards +z, its normals those of the cylinder, bent on by a factor.
+/// A part of a cylinder about the y axis that bulges towards +z; its normals are the cylinder's, bent further by a
+/// factor.
 fn bulge(material: Material, bend: f32) -> Thing {
     let column = |i: u32| (i as f32 / 8.0 - 0.5) * 2.0;
     let corners: Vec<(f32, f32)> = (0..=8).flat_map(|i| [(column(i), -0.8), (column(i), 0.8)]).collect();
@@ -93,7 +94,7 @@ fn lights_reach_below_the_horizon() {
 
 #[test]
 fn one_sided_lights_are_dark_behind() {
-    // The plane of the light cuts the floor: one part is lit, the other is black.
+    // The plane of the light cuts the floor: one part is lit, the other black.
     let upright = |double_sided| {
         let mut light = window().placed(facing([0.2, 0.4, -0.3], [1.0, 0.4, 0.1]));
         light.material.double_sided = double_sided;
@@ -149,7 +150,7 @@ fn parallel_projection_has_one_view_direction() {
     let projection = Projection::Orthographic { ymag: 1.2, near: 0.0, far: 50.0 };
     let stage = Stage { projection, ..Stage::new(vec![floor(cloth()), window()], eye()) };
     hold(&stage, &sheen_alone());
-    // Straight down the view is the normal, where no direction across is given.
+    // Straight down the view is the normal, which leaves the frame's x open.
     let above = looking([0.0, 3.0, 0.0], ORIGIN);
     hold(&Stage { world_from_camera: above, ..stage }, &sheen_alone());
 }
@@ -195,7 +196,7 @@ fn one_sheen_may_be_given_to_all() {
     hold(&stage, &changed(Some(0.0), color, Settings::default()));
 }
 
-/// A table as unlike the shipped one as can be: every node has its own numbers, and the sides differ.
+/// A table as unlike the shipped one as possible: every node has its own numbers, and the sides differ.
 fn odd_table() -> SheenTable {
     let mut seed = 7u32;
     let mut random = || {

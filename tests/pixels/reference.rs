@@ -9,16 +9,18 @@ use velour::table::SheenTable;
 use super::compare::{CORNER_SHIFT, SIZE, linear, moves_corners, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
 
-/// What real time computes: direct light that nothing stands in the way of, at the pixels' centres.
+/// What real time computes: direct light, with nothing in its way, at the pixels' centres.
 const REAL_TIME: Options =
     Options { max_bounces: 0, shadows: false, filter: Filter::Centre, specular: SpecularModel::Ltc };
-/// Of a pixel's value, whatever the noise.
+/// Tolerance relative to a pixel's value, however little noise there is.
 const RELATIVE: f64 = 1e-3;
-/// Of the picture's mean.
+/// Tolerance of the picture's mean, relative.
 const MEAN: f64 = 5e-3;
-/// Of the picture's greatest value: what f32 leaves where a light's plane or the horizon passes (see `compare`).
+/// Tolerance relative to the picture's greatest value: rounding in f32 where a light's plane or the horizon passes (see
+/// `compare`).
 const OF_GREATEST: f64 = 1e-5;
-/// So many pixels may be off: those that noise moves by more than three standard errors, 5 in 1000 with 32 batches, and edges.
+/// The share of pixels that may be off: those that noise moves by more than three standard errors, 5 in 1000 with 32
+/// batches, and edges.
 const MOST_OFF: f64 = 0.01;
 
 pub fn traced(scene: &Scene, table: &SheenTable, settings: &Settings, options: Options, samples: u64) -> Picture {
@@ -30,7 +32,8 @@ fn mean(picture: &LinearImage) -> f64 {
     picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum::<f64>() / (3 * picture.pixels.len()) as f64
 }
 
-/// How far a pixel moves, per channel, where the driver moves corners: by the steepest way to its neighbours.
+/// How far a pixel's value moves, per channel, where the driver moves corners: along the steepest slope to its
+/// neighbours.
 fn slack(radiance: &LinearImage, index: usize) -> DVec3 {
     if !moves_corners() {
         return DVec3::ZERO;
@@ -45,7 +48,8 @@ fn slack(radiance: &LinearImage, index: usize) -> DVec3 {
     CORNER_SHIFT * (steepest(1) + steepest(width))
 }
 
-/// Holds a picture to one of the reference: nearly all pixels within three standard errors or 0.1%, the mean within 0.5%.
+/// Holds a picture to one of the reference: nearly all pixels within three standard errors or 0.1%, the mean within
+/// 0.5%.
 pub fn differences(picture: &LinearImage, reference: &Picture) -> Result<(), String> {
     let radiance = &reference.radiance;
     let greatest = radiance.pixels.iter().flatten().fold(0.0_f32, |greatest, &value| greatest.max(value));
@@ -151,16 +155,16 @@ fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
     // Batches of 1, 1, 2, 4, 8, 16, 16 and so on, four tiles each.
     let later = render(4096, 4 * 7 + 1);
     assert_eq!(later.samples, 48);
-    // What is there is what as many samples give that are asked for.
+    // What is there is the picture of that many samples.
     assert_eq!(later.radiance, whole_batches(&reference, &scene, later.samples));
     let whole = render(100, u64::MAX);
     assert_eq!((whole.samples, whole.batches), (100, 51));
 }
 
-/// The picture of the first samples of 4096.
+/// The picture of the first `samples` of 4096.
 fn whole_batches(reference: &Reference, scene: &Scene, samples: u64) -> LinearImage {
     let effort = Effort { samples: 4096, seed: 0 };
-    // With the last of these batches' tiles.
+    // At the last tile of these batches.
     let stop_after = 4 * 7;
     let picture = reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap();
     assert_eq!(picture.samples, samples);
@@ -215,7 +219,8 @@ fn shadows_are_where_straight_lines_say() {
     assert!(mean(&covered.radiance) < 0.02 * mean(&open.radiance));
 }
 
-/// The walk through the slab, the slab's table and its fit are of one lobe: the first two agree within their noise, and the fit does not.
+/// The walk through the slab, the slab's table and its fit stand for the same lobe: the first two agree within their
+/// noise, and the fit does not.
 #[test]
 fn the_walk_is_the_slab_and_the_fit_is_near() {
     let table = SheenTable::embedded();
@@ -236,7 +241,7 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
             "alpha {alpha}: {found} {expected} {error}"
         );
         if alpha < 0.5 {
-            // What comes back of few paths is not seen in the errors of single pixels.
+            // Few paths come back here, and a pixel that none of them brings light to does not show that in its error.
             continue;
         }
         // Pixels one by one, each with its own noise.
@@ -248,7 +253,7 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
     }
 }
 
-/// In a white furnace light that nothing absorbs all comes back, through the layer and off the base, whatever alpha.
+/// In a white furnace nothing absorbs: all light comes back, through the layer and off the base, whatever alpha.
 #[test]
 fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
     let table = SheenTable::embedded();
@@ -265,7 +270,7 @@ fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
             let lit: Vec<f32> =
                 picture.radiance.pixels.iter().map(|pixel| pixel[1]).filter(|&value| value > 0.0).collect();
             assert!(lit.len() > 1000);
-            // Each path brings back all that it took, but for those that are ended at random.
+            // Each path brings back what it started with, except for those that are ended at random.
             let mean = lit.iter().map(|&value| f64::from(value)).sum::<f64>() / lit.len() as f64;
             assert!((mean - 1.0).abs() < 1e-3, "alpha {alpha}: {mean}");
         }
@@ -287,7 +292,7 @@ fn bounces_add_up_to_what_a_closed_box_has() {
     }
 }
 
-/// A uniform environment seen from inside a closed box is not seen; from an open floor it is all there.
+/// An open floor receives all of a uniform environment; under a wide roof next to nothing of it arrives.
 #[test]
 fn the_environment_is_shadowed() {
     let table = SheenTable::embedded();
@@ -308,7 +313,7 @@ fn the_environment_is_shadowed() {
     assert!(mean < 0.01, "{mean}");
 }
 
-/// Microfacets themselves, of a colour for each channel: near their fit, and not it; and of no more light than comes in.
+/// Microfacets themselves, of a colour for each channel: near their fit, but not equal to it; and they make no light.
 #[test]
 fn microfacets_are_near_their_fit() {
     let (table, settings) = (SheenTable::embedded(), Settings { lights_visible: false, ..Settings::default() });
@@ -320,7 +325,7 @@ fn microfacets_are_near_their_fit() {
     let [near, truth] = [&fit, &facets].map(|picture| mean(&picture.radiance));
     assert!((near / truth - 1.0).abs() < 0.15, "{near} {truth}");
     assert!(differences(&fit.radiance, &facets).is_err());
-    // Of all around as much comes back as the base's colour at most, and most of it.
+    // Of a uniform environment about the share that is the base's colour comes back.
     stage.things.truncate(1);
     let furnace = Settings { ambient: Vec3::ONE, ..settings };
     let reference = traced(&stage.scene(), &table, &furnace, Options { specular: SpecularModel::Ggx, ..REAL_TIME }, 16);
@@ -330,7 +335,8 @@ fn microfacets_are_near_their_fit() {
     assert!(lit.clone().count() > 1000 && lit.clone().all(fits));
 }
 
-/// A ball of few facets beside its light: what is round stands in no light of its own, and the light does not either.
+/// A ball of few facets beside its light: what is meant to be round casts no shadow on itself, and neither does the
+/// light.
 #[test]
 fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
     let (table, settings) = (SheenTable::embedded(), Settings::default());
@@ -348,7 +354,8 @@ fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
     }
 }
 
-/// Where the shading normal turns away from the view, as at coarse silhouettes, the walk scatters as the slab does.
+/// Where the shading normal turns away from the view, as at the silhouettes of coarse meshes, the walk scatters as the
+/// slab does.
 #[test]
 fn the_walk_goes_on_where_the_view_is_along_the_surface() {
     let table = SheenTable::embedded();

@@ -30,7 +30,7 @@ fn pictures_come_with_their_figures() {
     let bytes = |name: &str| std::fs::read(bench.path(name)).unwrap();
     assert_eq!(bytes("a.exr"), bytes("b.exr"));
     assert_ne!(bytes("a.exr"), bytes("c.exr"));
-    // One batch has no errors to tell.
+    // Errors cannot be estimated from one batch.
     assert!(figures(&bench, &format!("{base} -o d.png --spp 1"))["relative_error"].is_null());
     let words = bench.run("reference scene.glb -o e.png --size 40x30 --spp 64").stdout;
     assert!(words.contains("64 samples a pixel") && words.contains("standard error"), "{words}");
@@ -117,7 +117,7 @@ fn an_interrupted_picture_is_whole_and_says_its_samples() {
     assert_eq!(bench.names(), ["out.png", "scene.glb"]);
 }
 
-/// Without a driver the picture is the same but for noise and edges, and it is said how it came about.
+/// Without a driver the picture is the same but for noise and edges, and a line says how it was made.
 #[test]
 fn without_a_device_the_reference_renders() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! The sheens of prior work in real time, summed over points on the lights, against the reference, which follows light to them at random.
+//! The sheens of prior work: real time, which sums over fixed points on the lights, against the reference, which
+//! samples them at random.
 
 use glam::Vec3;
 use velour::picture::LinearImage;
@@ -15,15 +16,19 @@ use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
 
 const MODELS: [SheenModel; 4] =
     [SheenModel::Burley, SheenModel::ContyKulla, SheenModel::NeubeltPettineo, SheenModel::Patry];
-/// Of a pixel's value: what points leave of lights no nearer than their own size, and a table of albedos between its nodes.
+/// Tolerance relative to a pixel's value: the error of points on lights no nearer than their own size, and of the table
+/// of albedos between its nodes.
 const RELATIVE: f64 = 0.005;
-/// Of the picture's mean.
+/// Tolerance of the picture's mean, relative.
 const MEAN: f64 = 0.005;
-/// Of the picture's greatest value: where a light's plane or the horizon passes, points are on one side or the other.
+/// Tolerance relative to the picture's greatest value: where a light's plane or the horizon passes, points are on one
+/// side or the other.
 const OF_GREATEST: f64 = 1e-3;
-/// So many pixels may be off, four standard errors of the reference allowed, which few samples tell only roughly.
+/// The share of pixels that may be off by more than four standard errors of the reference, which few samples estimate
+/// only roughly.
 const MOST_OFF: f64 = 0.01;
-/// Of the light of a picture, elsewhere than it should be, where lights are near. Measured: 0.014 to 0.093, noise with it.
+/// The share of a picture's light that may be in the wrong place where lights are near. Measured: 0.014 to 0.093, noise
+/// included.
 const NEAR_MOST: f64 = 0.12;
 const SAMPLES: u64 = 64;
 
@@ -119,7 +124,8 @@ fn wrong_models_are_rejected() {
     assert!(changed(&|value| 1.02 * value) && changed(&|value| 0.98 * value) && changed(&|_| f32::NAN));
 }
 
-/// Over a base of all lobes, under a uniform environment and a light without extent too. Conty's and Kulla's albedo passes 1 at alpha 0.05.
+/// Over a base of all lobes, under a uniform environment and a light without extent too. Conty Estevez and Kulla's
+/// albedo exceeds 1 at alpha 0.05.
 #[test]
 fn models_lie_on_the_base_as_they_are_told() {
     let lobes = Lobes { emission: false, ..Lobes::default() };
@@ -144,7 +150,7 @@ fn models_lie_on_the_base_as_they_are_told() {
     }
 }
 
-/// What is left of a uniform environment is the albedo: the table of it, between its nodes, at all elevations.
+/// A uniform environment shows the albedo: its table, between the nodes, at all elevations.
 #[test]
 fn albedos_are_the_references() {
     for model in MODELS {
@@ -172,7 +178,8 @@ fn materials_of_one_scene_have_models_of_their_own() {
     }
 }
 
-/// A tenth of its size above the floor, where points are as far from each other as from the floor, and through it.
+/// A light a tenth of its size above the floor, where points are as far from each other as from the floor, and one that
+/// passes through it.
 #[test]
 fn lights_that_are_near_are_roughly_right() {
     let light = |eye, target| Thing::rectangle([0.5, 0.5], glow([4.0, 3.0, 2.0])).placed(facing(eye, target));

@@ -10,7 +10,7 @@ use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
 use super::truth::Truth;
 
-/// A velvet floor and a bright light that is seen. Both lie within the picture: drivers cut what leaves it into more
+/// A velvet floor and a bright light that is drawn. Both lie within the picture: drivers cut what leaves it into more
 /// triangles, along whose edges four samples are shaded in two places.
 fn stage() -> Stage {
     let floor = Thing::rectangle([1.5, 1.5], velvet([0.9, 0.5, 0.2], 0.4)).placed(facing([0.0; 3], [0.0, 1.0, 0.0]));
@@ -38,7 +38,8 @@ fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
         for exposure in [-2.0, 0.0, 1.3, 6.0] {
             let settings = Settings { exposure, ..Settings::default() };
             let picture = shown(&scene, 1, &settings, tone, SIZE);
-            // Radiance is kept in 11 bits on its way: a twentieth of a step, which may tip the rounding to 8 bits.
+            // On its way radiance is kept in 11 bits: an error of a twentieth of a step, which may tip the rounding to
+            // 8 bits.
             assert!(greatest(&picture, &radiance.display(exposure, tone)) <= 1, "{tone:?} {exposure}");
             assert!(greatest(&picture, &radiance.display(exposure + 0.1, tone)) > 1, "{tone:?} {exposure}");
         }
@@ -47,7 +48,7 @@ fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
 
 #[test]
 fn exposure_reaches_radiance_of_any_unit() {
-    // Halves hold neither: what is stored has been exposed.
+    // Half floats hold neither: they store radiance after exposure.
     for (radiance, exposure) in [(5e5, -20.0), (1e-8, 26.0)] {
         let mut stage = stage();
         stage.things[1].material = glow([radiance; 3]);
@@ -161,7 +162,8 @@ fn many_triangles_are_drawn_in_parts_without_a_trace() {
     }
 }
 
-/// Positions are interpolated relative to the camera: drivers err by a share of what they interpolate, most where samples are several.
+/// Positions are interpolated relative to the camera: drivers err by a share of what they interpolate, most with
+/// several samples a pixel.
 #[test]
 fn a_kilometre_from_the_origin_a_scene_looks_as_at_it() {
     let at = |offset: f32| {

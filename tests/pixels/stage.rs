@@ -94,7 +94,7 @@ impl Stage {
         Self { things, world_from_camera, projection, punctual: Vec::new() }
     }
 
-    /// The scene as the library's own types: nothing of the reading of files is between it and the picture.
+    /// The scene in the library's own types: no file is read between it and the picture.
     pub fn scene(&self) -> Scene {
         let things = self.things.iter().enumerate();
         let mesh = |(index, thing): (usize, &Thing)| Mesh {
@@ -132,7 +132,7 @@ impl Stage {
         container(json.to_string().as_bytes(), &binary)
     }
 
-    /// The chunks of the file: to be spoilt before they are put together.
+    /// The chunks of the file, for tests that spoil them before they are put together.
     pub fn chunks(&self) -> (Value, Vec<u8>) {
         let mut file = File::default();
         let mut nodes: Vec<Value> =

@@ -69,7 +69,7 @@ fn what_cannot_be_read_or_written_is_said_before_the_work() {
     let shipped = SheenTable::embedded();
     bench.put("sheen_ltc.csv", shipped.to_csv(&[]));
     bench.put("sheen_ltc.dds", shipped.to_dds());
-    // The second table's file is looked at before the first is made.
+    // The second table's file is checked before the first table is made.
     bench.refused(&mut bench.command("fit --check -o ."), 2, "sheen_slab.dds: cannot be read");
     bench.put("sheen_slab.dds", "no texture");
     bench.refused(&mut bench.command("fit --check --only slab -o ."), 2, "sheen_slab.dds: no .dds texture");

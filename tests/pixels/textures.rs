@@ -15,7 +15,8 @@ use super::stage::{Stage, Thing, facing, glow, looking, plain};
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 const ORIGIN: [f32; 3] = [0.0; 3];
 
-/// A scene whose first thing is a square floor with texture coordinates (u to the right, v towards the viewer), and a window.
+/// A scene whose first thing is a square floor with texture coordinates (u to the right, v towards the viewer), and a
+/// window.
 fn floor(material: Material) -> Scene {
     let floor = Thing::rectangle([1.5, 1.5], material).placed(facing(ORIGIN, UP));
     let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
@@ -176,7 +177,8 @@ fn far_textures_are_their_mean_in_linear_light() {
     }
 }
 
-/// Pixels at a triangle's edge take part in derivatives of both triangles: a wrong one shows as a seam of another mipmap.
+/// Pixels at the edge of two triangles take part in the derivatives of both: a wrong one shows as a seam of another
+/// mipmap.
 #[test]
 fn triangles_leave_no_seams_in_textures() {
     let texels: Vec<[u8; 4]> =
@@ -184,7 +186,7 @@ fn triangles_leave_no_seams_in_textures() {
     let shown = |parts: u32| {
         let mut scene = floor(Material { base_color: Vec3::ZERO, emission: Vec3::ONE, ..plain() });
         textured(&mut scene, TextureSlot::Emission, [64, 64], texels.clone());
-        // The same floor in so many parts a side.
+        // The same floor in this many parts a side.
         let corners =
             || (0..=parts).flat_map(|y| (0..=parts).map(move |x| Vec2::new(x as f32, y as f32) / parts as f32));
         let mesh = &mut scene.meshes[0];
@@ -216,7 +218,7 @@ fn vertex_colours_multiply_the_base() {
 
 #[test]
 fn a_mapped_normal_is_one_that_the_mesh_might_have() {
-    // Leaning to the right and away from the viewer, as a byte can say it.
+    // Leaning to the right and away from the viewer, by what a byte can hold.
     let texel = [180_u8, 150, 230, 255];
     let mapped = Vec3::new(f32::from(texel[0]), f32::from(texel[1]), f32::from(texel[2])) / 127.5 - 1.0;
     for mirrored in [false, true] {
@@ -224,7 +226,7 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
         textured(&mut scene, TextureSlot::Normal, [1, 1], vec![texel]);
         let mut expected = floor(rich());
         if mirrored {
-            // The floor's own tangents are mirrored with it, and so is what the texture says.
+            // The floor's own tangents are mirrored with it, and so are the texture's normals.
             for scene in [&mut scene, &mut expected] {
                 let flip = glam::Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
                 scene.instances[0].world_from_mesh *= flip;
@@ -236,7 +238,7 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
     }
 }
 
-/// Filtering widens what a mipmap has averaged, and nothing else.
+/// Filtering widens the lobe by what a mipmap has averaged, and by nothing else.
 #[test]
 fn flat_normal_maps_leave_sharp_reflections_sharp() {
     let settings = Settings { lights_visible: false, ..Settings::default() };

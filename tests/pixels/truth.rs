@@ -86,7 +86,7 @@ impl<'a> Truth<'a> {
                 (DVec3::new(right * extent, up * extent, 0.0), DVec3::NEG_Z, [near, far])
             }
         };
-        // The direction goes one unit deep, so distances along it are depths.
+        // The direction reaches one unit of depth, so distances along it are depths.
         let direction = world_from_camera.transform_vector3(direction);
         let view = -direction.normalize();
         Ray { origin: world_from_camera.transform_point3(origin), direction, range: [near.into(), far.into()], view }
@@ -119,7 +119,8 @@ impl<'a> Truth<'a> {
             };
             sum += irradiance * look.reflected(lobes, look.weight_from(wo.z.max(0.0)), density);
         }
-        // A uniform environment: each lobe's albedo, and the mean over the hemisphere of what the sheen leaves of the base.
+        // A uniform environment: each lobe's albedo, and the mean over the hemisphere of what the sheen leaves of the
+        // base.
         let mean = |k: i32| 2.0 * (f64::from(k) + 0.5) / 256.0 / 256.0 * look.weight_from((f64::from(k) + 0.5) / 256.0);
         let base = if look.light_side.is_some() { (0..256).map(mean).sum() } else { look.base_weight };
         sum + self.settings.ambient.as_dvec3() * look.reflected(lobes, base, |_| 1.0)
@@ -134,8 +135,9 @@ struct Look<'a> {
     diffuse: DVec3,
     specular: DVec3,
     specular_m_inv: DMat3,
-    /// What the sheen leaves of the base: seen from the view, and how that depends on the light's cosine (alpha, strongest colour).
+    /// What the sheen leaves of the base as seen from the view.
     base_weight: f64,
+    /// Where that depends on the light's cosine too: alpha and the strongest channel of the sheen's colour.
     light_side: Option<(f64, f64)>,
 }
 
@@ -183,7 +185,7 @@ impl<'a> Look<'a> {
         light.map_or(self.base_weight, |light| light.min(self.base_weight))
     }
 
-    /// The sum over the lobes that are asked for, of light that reaches each by `form_factor`.
+    /// The sum over the lobes that are asked for; `form_factor` is how much light reaches each.
     fn reflected(&self, lobes: Lobes, base: f64, form_factor: impl Fn(DMat3) -> f64) -> DVec3 {
         let mut sum = DVec3::ZERO;
         if lobes.sheen {
@@ -208,7 +210,8 @@ struct Lit {
 }
 
 impl Lit {
-    /// The mean of a function of the cosine over the light's directions, weighted by the cosine, by a sum over its area.
+    /// The mean of a function of the cosine over the light's directions, weighted by the cosine, by a sum over its
+    /// area.
     fn mean_cosine_weighted(&self, p_world: DVec3, normal: DVec3, value: impl Fn(f64) -> f64) -> f64 {
         const PARTS: usize = 12;
         let (mut sum, mut weights) = (0.0, 0.0);

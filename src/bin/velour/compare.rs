@@ -1,18 +1,44 @@
 //! `velour compare`: how far a picture is from a reference.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde_json::json;
 use velour::picture::{Differences, FlipMap, Format, Picture, check_writable, write_atomically};
 
-use crate::args::Compare;
-use crate::output::{is_same_file, with_progress};
-use crate::{Failure, say};
+use crate::console::say;
+use crate::failure::Failure;
+use crate::output::is_same_file;
+use crate::progress::with_progress;
+
+/// The flags of `velour compare`.
+#[derive(Args)]
+pub struct Compare {
+    /// The picture: .exr (linear radiance) or .png (as shown, 8 or 16 bits a channel)
+    pub a: PathBuf,
+    /// The reference, of the same kind and size
+    pub b: PathBuf,
+    /// Writes FLIP of each pixel as colours: black is 0, pale yellow 1 [default: none is written]
+    #[arg(long, value_name = "OUT.png")]
+    pub heatmap: Option<PathBuf>,
+    /// Ends with exit code 1 where FLIP is above this, a finite number from 0 up [default: no limit]
+    #[arg(long, value_name = "FLIP", value_parser = limit, allow_negative_numbers = true)]
+    pub fail_above: Option<f64>,
+    /// Prints figures for machines on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    let limit = text.parse().ok().filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
+    limit.ok_or_else(|| "give a finite number from 0 up, say 0.05".to_owned())
+}
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// Both pictures are read and compared before anything is written; a picture that falls short is told of with its figures.
-pub fn compare(arguments: &Compare) -> Result<(), Failure> {
+/// Both pictures are read and compared before anything is written; the figures of a picture that falls short are
+/// printed too.
+pub fn run(arguments: &Compare) -> Result<(), Failure> {
     let heatmap = arguments.heatmap.as_deref();
     heatmap.map_or(Ok(()), |path| check_heatmap(path, [&arguments.a, &arguments.b]))?;
     let [a, b] = Picture::load_pair(&arguments.a, &arguments.b).map_err(Failure::input)?;
@@ -36,7 +62,7 @@ pub fn compare(arguments: &Compare) -> Result<(), Failure> {
     }
 }
 
-/// The heat map is a .png that can be written and is none of the pictures.
+/// The heat map is a .png that can be written, and neither of the pictures.
 fn check_heatmap(path: &Path, inputs: [&Path; 2]) -> Result<(), Failure> {
     let name = path.display();
     if Format::of(path).ok() != Some(Format::Png) {
@@ -76,7 +102,7 @@ fn report(arguments: &Compare, a: &Picture, differences: &Differences, flip: &Fl
     }
 }
 
-/// The digits of a float, the exponent of ten apart where they would be many.
+/// In the digits of an `f32`, with an exponent of ten where they would be many.
 fn figure(value: f64) -> String {
     format!("{:?}", value as f32)
 }
@@ -104,4 +130,17 @@ fn figures(arguments: &Compare, a: &Picture, differences: &Differences, flip: &F
         },
         "heatmap": arguments.heatmap.as_ref().map(|path| path.display().to_string()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_finite_and_not_negative() {
+        assert_eq!(["0", "0.05", "2", "1e-9"].map(limit), [0.0, 0.05, 2.0, 1e-9].map(Ok));
+        for text in ["", "-0.1", "nan", "inf", "1e999", "5%", "0,05"] {
+            assert!(limit(text).is_err(), "{text}");
+        }
+    }
 }

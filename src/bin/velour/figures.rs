@@ -1,23 +1,34 @@
-//! `velour figures`: the table and its errors, the paper's figures and our comparisons as pictures, and a page that shows them.
+//! `velour figures`: the table and its errors, the paper's figures and our comparisons as pictures, and a page that
+//! shows them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use clap::Args;
 use serde_json::{Map, Value, json};
 use velour::figures::{self, Figure, plates};
 use velour::picture::write_atomically;
 use velour::table::SheenTable;
 
-use crate::args::Figures;
+use crate::console::say;
+use crate::failure::Failure;
 use crate::interrupt::{ENDING, listen};
-use crate::output::{prepare, with_progress};
-use crate::{Failure, say};
+use crate::output::prepare;
+use crate::progress::with_progress;
+
+/// The flags of `velour figures`.
+#[derive(Args)]
+pub struct Figures {
+    /// Folder for the pictures; made if it is not there
+    #[arg(short, long, default_value = "figures", value_name = "DIR")]
+    pub output: PathBuf,
+}
 
 /// The page's file.
 const PAGE: &str = "README.md";
 
-pub fn figures(arguments: &Figures) -> Result<(), Failure> {
+pub fn run(arguments: &Figures) -> Result<(), Failure> {
     let folder = &arguments.output;
     let plates = plates::plates();
     let beside = |name: &str| [folder.join(format!("{name}.png")), folder.join(format!("{name}.json"))];
@@ -57,8 +68,8 @@ pub fn figures(arguments: &Figures) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The figures that are drawings: those of the table, which take seconds, made anew; that of the fibres, which takes a minute, only where it is
-/// not there.
+/// The figures that are drawings: those of the table take seconds and are always made; that of the fibres takes a
+/// minute and is made only where it is missing.
 fn drawn(folder: &Path) -> Result<Vec<Figure>, Failure> {
     let mut figures = with_progress("figures", |step| figures::all(&SheenTable::embedded(), step));
     for figure in &figures {
@@ -92,7 +103,7 @@ fn fibres(folder: &Path) -> Result<Figure, Failure> {
     Ok(figure)
 }
 
-/// What a plate is made with, as it stands beside it.
+/// What a plate is made with, as the file beside it says.
 fn described(settings: &[(&str, String)]) -> String {
     let mut map: Map<String, Value> = settings.iter().map(|(name, value)| ((*name).to_owned(), json!(value))).collect();
     map.insert("velour".to_owned(), json!(env!("CARGO_PKG_VERSION")));

@@ -1,21 +1,54 @@
 //! `velour fit`: the tables from nothing.
 
 use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use clap::{Args, ValueEnum};
 use velour::fit;
 use velour::picture::write_atomically;
 use velour::table::{GgxTable, SheenTable, SlabTable, TableError};
 
-use crate::args::{Fit, Table};
-use crate::output::{prepare, with_progress};
-use crate::{Failure, say};
+use crate::console::say;
+use crate::failure::Failure;
+use crate::output::prepare;
+use crate::progress::with_progress;
 
-/// Half-float steps between what this machine makes and what another one may have made.
+/// The flags of `velour fit`.
+#[derive(Args)]
+pub struct Fit {
+    /// Folder of the tables; made if it is not there
+    #[arg(short, long, default_value = "tables", value_name = "DIR")]
+    pub output: PathBuf,
+    /// Which table: sheen is sheen_ltc.csv and .dds, slab is sheen_slab.dds, ggx is ggx_ltc.csv and .dds [default: all]
+    #[arg(long, value_enum, value_name = "sheen|slab|ggx")]
+    pub only: Option<Table>,
+    /// Nodes along alpha and along mu of the sheen's table, 2 to 128 [default: 32]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(resolutions()))]
+    pub resolution: Option<u16>,
+    /// Writes nothing: compares the folder's tables with what would be written, to one half-float step
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// Of the sheen's table.
+fn resolutions() -> RangeInclusive<i64> {
+    let side = |side: &usize| *side as i64;
+    side(fit::RESOLUTIONS.start())..=side(fit::RESOLUTIONS.end())
+}
+
+#[derive(Clone, Copy, ValueEnum, PartialEq)]
+pub enum Table {
+    Sheen,
+    Slab,
+    Ggx,
+}
+
+/// Half-float steps by which this machine's numbers may differ from another's.
 const ROUNDING: u32 = 1;
 
-/// What can fail comes before the work, for all tables. A check tells of every file, and fails once.
-pub fn fit(arguments: &Fit) -> Result<(), Failure> {
+/// What can fail comes before the work, for all tables. A check reports every file, and fails once.
+pub fn run(arguments: &Fit) -> Result<(), Failure> {
     if arguments.resolution.is_some() && arguments.only.is_some_and(|only| only != Table::Sheen) {
         return Err(Failure::input("--resolution is the sheen's: leave it out, or with it --only"));
     }
@@ -52,7 +85,8 @@ struct Files<T> {
 }
 
 impl<T> Files<T> {
-    /// None where the table is not asked for. With `--check` the files are read, else it is seen that they can be written.
+    /// None where the table is not asked for. With `--check` the files are read, else it is seen that they can be
+    /// written.
     fn of(
         arguments: &Fit,
         table: Table,
@@ -74,8 +108,8 @@ impl<T> Files<T> {
         Ok(Some(Self { paths, found }))
     }
 
-    /// Says which of the files that were read hold the table, and gives what is wrong with the others. `steps` is how many half-floats
-    /// they are off, none where the sizes differ.
+    /// Says which of the files that were read hold the table, and gives what is wrong with the others. `steps` is how
+    /// many half-floats they are off, none where the sizes differ.
     fn check(&self, steps: impl Fn(&T) -> Option<u32>) -> Vec<String> {
         let mut wrong = Vec::new();
         for (path, found) in self.paths.iter().zip(&self.found) {

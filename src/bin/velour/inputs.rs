@@ -1,32 +1,17 @@
-//! What every way of rendering starts from: the scene, the table, the settings; and how its time is told.
+//! What every way of rendering starts from: the scene, the table, the settings.
 
 use std::path::Path;
-use std::time::Instant;
 
-use velour::picture::{Format, LinearImage, WriteError, check_writable};
+use velour::picture::{Format, check_writable};
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::SheenTable;
 
-use crate::output::is_same_file;
-use crate::render_args::{PictureArgs, Switch};
-use crate::{Failure, complain, overrides};
-
-/// Seconds spent in the parts of a run, in order.
-#[derive(Default)]
-pub struct Timing(pub Vec<(&'static str, f64)>);
-
-impl Timing {
-    pub fn measure<T>(&mut self, part: &'static str, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
-        let done = work();
-        self.0.push((part, start.elapsed().as_secs_f64()));
-        done
-    }
-
-    pub fn total(&self) -> f64 {
-        self.0.iter().map(|(_, seconds)| seconds).sum()
-    }
-}
+use crate::console::complain;
+use crate::failure::Failure;
+use crate::output::check_apart;
+use crate::overrides;
+use crate::picture_args::{PictureArgs, Switch};
+use crate::timing::Timing;
 
 /// What a picture is made of.
 pub struct Inputs {
@@ -39,7 +24,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Reads and checks everything that the flags name. What can be wrong with the output is said first.
+    /// Reads and checks everything that the flags name, the output first.
     pub fn load(arguments: &PictureArgs, timing: &mut Timing) -> Result<Self, Failure> {
         let format = Format::of(&arguments.output).map_err(Failure::input)?;
         check_writable(&arguments.output).map_err(Failure::input)?;
@@ -57,41 +42,9 @@ impl Inputs {
         &self.scene.cameras[self.camera]
     }
 
-    /// Warnings have waited until nothing can go wrong any more.
+    /// Prints the scene's notices, which have waited until nothing can go wrong any more.
     pub fn warn(&self) {
         self.scene.notices.iter().for_each(complain);
-    }
-
-    /// Refuses what takes a path tracer.
-    #[cfg(feature = "gpu")]
-    pub fn check_real_time(&self) -> Result<(), Failure> {
-        let own = self.settings.material_overrides.values();
-        for overrides in own.chain([&self.settings.overrides]) {
-            if let Some(model) = overrides.sheen_model.filter(|model| !model.is_real_time()) {
-                let name = model.name();
-                return Err(Failure::input(format!(
-                    "--sheen-model {name} takes a path tracer: use `velour reference`"
-                )));
-            }
-            if overrides.layering == Some(velour::scene::Layering::Walk) {
-                return Err(Failure::input("--layering walk takes a path tracer: use `velour reference`"));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Refuses to write over the scene.
-pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
-    let message = || format!("{}: is the scene itself: choose another place", output.display());
-    if is_same_file(output, scene) { Err(Failure::input(message())) } else { Ok(()) }
-}
-
-/// A linear picture's file, in memory.
-pub fn encoded(picture: &LinearImage, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, WriteError> {
-    match format {
-        Format::Png => picture.display(arguments.exposure, arguments.tonemap.into()).to_png(),
-        Format::Exr => picture.to_exr(),
     }
 }
 

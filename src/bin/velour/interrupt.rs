@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set once the user has asked for an end.
 pub static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// From now on. Where that cannot be, Ctrl-C ends the program as ever.
+/// Listens from now on. Where that is not possible, Ctrl-C ends the program as usual.
 pub fn listen() {
     let _ = ctrlc::set_handler(|| {
         if ENDING.swap(true, Ordering::Relaxed) {

@@ -1,48 +1,38 @@
-//! The command line: what the user asks for, in which order it is done, and what is said about it.
+//! The command line: what the user asks for, and how the run ends.
+//!
+//! Each command has a file of its name with its flags and its `run`: `view`, `render`, `reference`, `fit`, `compare`,
+//! `figures`, `info`; `args` lists them. The others are what commands share.
 
 mod args;
 mod compare;
-#[cfg(feature = "gpu")]
-mod draw;
+mod console;
+mod failure;
 mod figures;
 mod fit;
+#[cfg(feature = "gpu")]
+mod info;
 mod inputs;
 mod interrupt;
 mod output;
 mod overrides;
+mod picture_args;
+mod progress;
 mod reference;
-mod render_args;
+#[cfg(feature = "gpu")]
+mod render;
+mod timing;
+#[cfg(feature = "viewer")]
+mod view;
+#[cfg(feature = "gpu")]
+mod without_device;
 
-use std::fmt::Display;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 use args::{Arguments, Command};
 use clap::Parser;
-
-/// How a run ends, but for success: the exit code and the line that says why.
-pub struct Failure {
-    code: u8,
-    message: String,
-}
-
-impl Failure {
-    /// A comparison or check fell short.
-    fn check(message: impl ToString) -> Self {
-        Self { code: 1, message: message.to_string() }
-    }
-
-    /// Bad usage or bad input.
-    fn input(message: impl ToString) -> Self {
-        Self { code: 2, message: message.to_string() }
-    }
-
-    /// No graphics device, or no display for a window.
-    #[cfg(feature = "gpu")]
-    fn device(message: impl ToString) -> Self {
-        Self { code: 3, message: message.to_string() }
-    }
-}
+use console::complain;
+#[cfg(not(feature = "viewer"))]
+use failure::Failure;
 
 fn main() -> ExitCode {
     quiet_device_selection();
@@ -52,19 +42,19 @@ fn main() -> ExitCode {
     };
     let done = match arguments.command {
         #[cfg(feature = "viewer")]
-        None => draw::view_or_render_default(),
+        None => view::run_or_render_default(),
         #[cfg(not(feature = "viewer"))]
         None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
         #[cfg(feature = "viewer")]
-        Some(Command::View(view)) => draw::view(&view),
+        Some(Command::View(view)) => view::run(&view),
         #[cfg(feature = "gpu")]
-        Some(Command::Render(render)) => draw::render(&render),
-        Some(Command::Reference(arguments)) => reference::reference(&arguments),
+        Some(Command::Render(render)) => render::run(&render),
+        Some(Command::Reference(reference)) => reference::run(&reference),
         #[cfg(feature = "gpu")]
-        Some(Command::Info) => draw::info(),
-        Some(Command::Fit(fit)) => fit::fit(&fit),
-        Some(Command::Compare(compare)) => compare::compare(&compare),
-        Some(Command::Figures(figures)) => figures::figures(&figures),
+        Some(Command::Info) => info::run(),
+        Some(Command::Fit(fit)) => fit::run(&fit),
+        Some(Command::Compare(compare)) => compare::run(&compare),
+        Some(Command::Figures(figures)) => figures::run(&figures),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -83,22 +73,6 @@ fn quiet_device_selection() {
     }
 }
 
-/// A line on stdout. Whoever closed the other end has read enough; another failure ends the program, which says so once.
-fn say(line: impl Display) {
-    match writeln!(io::stdout(), "{line}") {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(format!("stdout cannot be written ({error}): give it another place"));
-            std::process::exit(2);
-        }
-        _ => {}
-    }
-}
-
-/// A line on stderr; where that cannot be written, nobody is left to tell.
-fn complain(line: impl Display) {
-    let _ = writeln!(io::stderr(), "velour: {}", one_line(&line.to_string()));
-}
-
 /// Help and version as clap prints them; anything else in one line.
 fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
@@ -113,9 +87,4 @@ fn usage(error: &clap::Error) -> ExitCode {
     let message = message.join(" ");
     complain(format!("{}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message)));
     ExitCode::from(2)
-}
-
-/// Errors and notices are one line each, whatever a path or a name in them holds.
-fn one_line(message: &str) -> String {
-    message.chars().map(|character| if character.is_control() { '?' } else { character }).collect()
 }

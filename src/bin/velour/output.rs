@@ -1,14 +1,13 @@
-//! What commands that fill a folder have in common.
+//! Places where files are to be written, checked before the work.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressStyle};
 use velour::picture::check_writable;
 
-use crate::Failure;
+use crate::failure::Failure;
 
-/// Makes `folder` if it is not there and sees that files can be written to `paths` in it: what can go wrong does so before the work.
+/// Makes `folder` if it is not there, and checks that files can be written to `paths` in it.
 pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| {
         Failure::input(format!("{}: the folder cannot be made ({error}): choose another place", folder.display()))
@@ -16,21 +15,13 @@ pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
     paths.iter().try_for_each(|path| check_writable(path)).map_err(Failure::input)
 }
 
-/// Whether both names stand for one file that is there.
+/// Whether both paths lead to the same file, which is there.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// Does `work`, which tells of its (done, all) steps, under a bar that is drawn on a terminal only.
-pub fn with_progress<T>(name: &'static str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
-    let bar = ProgressBar::new(0).with_message(name);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps, {eta} left") {
-        bar.set_style(style);
-    }
-    let done = work(&|done, all| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    });
-    bar.finish_and_clear();
-    done
+/// Refuses to write over the scene.
+pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
+    let message = || format!("{}: is the scene itself: choose another place", output.display());
+    if is_same_file(output, scene) { Err(Failure::input(message())) } else { Ok(()) }
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 use velour::scene::{Layering, Material, Overrides, RoughnessMap, SheenModel};
 
-/// One `--set`, its material not looked for yet.
+/// One `--set`; its material is still a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
     material: String,
     overrides: Overrides,
 }
 
-/// Names in a message, characters in all.
+/// Most characters of names in a message.
 const NAMES_SHOWN: usize = 200;
 
 /// `MATERIAL.KEY=VALUE`: the key starts after the last dot before the first equals sign, so that names may have dots.
@@ -34,8 +34,8 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
     Ok(Assignment { material: material.to_owned(), overrides })
 }
 
-/// The overrides of materials by index. A name stands for all materials that bear it; where none does, a number counts from
-/// 0. Of two that set the same the later one counts.
+/// The overrides of materials by index. A name stands for all materials that bear it; where none does, a number is an
+/// index from 0. Where two set the same key, the later one wins.
 pub fn resolve(assignments: &[Assignment], materials: &[Material]) -> Result<BTreeMap<usize, Overrides>, String> {
     let mut resolved = BTreeMap::new();
     for Assignment { material, overrides } in assignments {

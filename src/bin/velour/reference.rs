@@ -1,38 +1,86 @@
-//! `velour reference`: pictures by path tracing; and those of `velour render` where there is no device.
+//! `velour reference`: pictures by path tracing.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
+use clap::{Args, ValueEnum};
 use serde_json::json;
-use velour::picture::{Format, check_writable, write_atomically};
-use velour::reference::{Effort, Options, Picture, Reference as Renderer, ReferenceError};
+use velour::picture::{Format, WriteError, check_writable, write_atomically};
+use velour::reference::{self, Effort, Options, Picture, ReferenceError};
 
-use crate::inputs::{Inputs, Timing, check_apart, encoded};
+use crate::console::{complain, say};
+use crate::failure::Failure;
+use crate::inputs::Inputs;
 use crate::interrupt::{ENDING, listen};
-use crate::output::with_progress;
-use crate::render_args::{PictureArgs, Reference};
-use crate::{Failure, complain, say};
+use crate::output::check_apart;
+use crate::picture_args::{PictureArgs, Switch};
+use crate::progress::with_progress;
+use crate::timing::Timing;
 
-#[cfg(feature = "gpu")]
-use {
-    crate::render_args::Render,
-    velour::picture::LinearImage,
-    velour::reference::{Filter, SpecularModel},
-    velour::scene::{Scene, Settings},
-    velour::table::SheenTable,
-};
+/// The flags of `velour reference`.
+#[derive(Args)]
+pub struct Reference {
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Samples a pixel
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub spp: u32,
+    /// Another seed gives other noise; the same one the same picture, on any number of threads
+    #[arg(long, default_value_t = 0, value_name = "N", allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Surfaces that light meets between a light and the one that is seen; 0 is direct light, at most 1000
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
+    pub max_bounces: u32,
+    /// Surfaces stand in each other's light
+    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
+    pub shadows: Switch,
+    /// Samples lie all over the pixel, or at its centre as with `velour render --msaa 1`
+    #[arg(long, default_value = "box", value_enum, value_name = "box|centre")]
+    pub filter: Filter,
+    /// The lobe of the specular base: the transformed cosine of real time, or GGX microfacets themselves
+    #[arg(long, default_value = "ltc", value_enum, value_name = "ltc|ggx")]
+    pub specular_model: SpecularModel,
+    /// Each pixel's standard error of radiance, as a picture
+    #[arg(long, value_name = "OUT.exr")]
+    pub errors: Option<PathBuf>,
+}
 
-/// How much is done where nobody said: of the fit light is found exactly, and only edges are to be smoothed; earlier models and the reciprocal rule
-/// keep some percent of noise.
-#[cfg(feature = "gpu")]
-const PLAIN: Effort = Effort { samples: 16, seed: 0 };
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Filter {
+    Box,
+    #[value(alias = "center")]
+    Centre,
+}
 
-pub fn reference(arguments: &Reference) -> Result<(), Failure> {
+#[derive(Clone, Copy, ValueEnum)]
+pub enum SpecularModel {
+    Ltc,
+    Ggx,
+}
+
+impl Reference {
+    pub fn options(&self) -> Options {
+        Options {
+            max_bounces: self.max_bounces,
+            shadows: self.shadows == Switch::On,
+            filter: match self.filter {
+                Filter::Box => reference::Filter::Box,
+                Filter::Centre => reference::Filter::Centre,
+            },
+            specular: match self.specular_model {
+                SpecularModel::Ltc => reference::SpecularModel::Ltc,
+                SpecularModel::Ggx => reference::SpecularModel::Ggx,
+            },
+        }
+    }
+}
+
+pub fn run(arguments: &Reference) -> Result<(), Failure> {
     let mut timing = Timing::default();
     if let Some(errors) = &arguments.errors {
         check_errors(errors, &arguments.picture)?;
     }
-    Renderer::check_size(arguments.picture.size).map_err(failure)?;
+    reference::Reference::check_size(arguments.picture.size).map_err(failure)?;
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
     let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
@@ -43,7 +91,7 @@ pub fn reference(arguments: &Reference) -> Result<(), Failure> {
     finish(&arguments.picture, &inputs, &picture, counts, &mut timing)
 }
 
-/// Whether errors can be written there: numbers, and in no other file's place.
+/// Errors are written as numbers, and over no other file.
 fn check_errors(errors: &Path, arguments: &PictureArgs) -> Result<(), Failure> {
     let refused = |what: &str| Err(Failure::input(format!("--errors {}: {what}", errors.display())));
     if !matches!(Format::of(errors), Ok(Format::Exr)) {
@@ -61,21 +109,21 @@ fn check_errors(errors: &Path, arguments: &PictureArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What was followed.
-struct Counts {
+/// How much work it was.
+pub struct Counts {
     rays: u64,
     triangles: usize,
     wanted: u64,
 }
 
-fn failure(error: ReferenceError) -> Failure {
+pub fn failure(error: ReferenceError) -> Failure {
     match error {
         ReferenceError::Size { .. } => Failure::input(format!("--size: {error}")),
         ReferenceError::Triangles { .. } => Failure::input(error),
     }
 }
 
-fn render(
+pub fn render(
     inputs: &Inputs,
     arguments: &PictureArgs,
     options: Options,
@@ -84,7 +132,8 @@ fn render(
 ) -> Result<(Picture, Counts), Failure> {
     listen();
     let Inputs { scene, settings, table, .. } = inputs;
-    let renderer = timing.measure("build", || Renderer::new(scene, settings, table, options)).map_err(failure)?;
+    let renderer =
+        timing.measure("build", || reference::Reference::new(scene, settings, table, options)).map_err(failure)?;
     let camera = inputs.camera();
     let picture = timing.measure("render", || {
         with_progress("reference", |step| {
@@ -98,15 +147,23 @@ fn render(
     Ok((picture.map_err(failure)?, counts))
 }
 
+/// The picture's file, in memory.
+fn encoded(picture: &Picture, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, WriteError> {
+    match format {
+        Format::Png => picture.radiance.display(arguments.exposure, arguments.tonemap.into()).to_png(),
+        Format::Exr => picture.radiance.to_exr(),
+    }
+}
+
 /// Writes the picture and says what it is.
-fn finish(
+pub fn finish(
     arguments: &PictureArgs,
     inputs: &Inputs,
     picture: &Picture,
     counts: Counts,
     timing: &mut Timing,
 ) -> Result<(), Failure> {
-    let bytes = timing.measure("encode", || encoded(&picture.radiance, inputs.format, arguments));
+    let bytes = timing.measure("encode", || encoded(picture, inputs.format, arguments));
     let bytes = bytes.map_err(Failure::input)?;
     timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();
@@ -121,11 +178,8 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
     let output = arguments.output.display();
     let [width, height] = arguments.size;
     let (error, worst) = (picture.relative_error(), picture.error_quantile(0.99));
-    let rendered = timing.0.iter().find(|(part, _)| *part == "render").map_or(0.0, |(_, seconds)| *seconds);
-    let speed = counts.rays as f64 / rendered.max(1e-9);
+    let speed = counts.rays as f64 / timing.of("render").max(1e-9);
     if arguments.json {
-        let seconds: serde_json::Map<_, _> =
-            timing.0.iter().map(|(part, seconds)| (part.to_string(), json!(seconds))).collect();
         say(json!({
             "output": output.to_string(),
             "size": arguments.size,
@@ -140,7 +194,7 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
             "lights": inputs.scene.lights.len(),
             "rays": counts.rays,
             "rays_per_second": speed,
-            "seconds": seconds,
+            "seconds": timing.seconds(),
             "total_seconds": timing.total(),
         }));
         return;
@@ -155,32 +209,4 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
         percent(error),
         percent(worst),
     ));
-}
-
-/// What `velour render` draws, without a device: no shadows, and samples at the pixels' centres where it takes one.
-#[cfg(feature = "gpu")]
-pub fn in_place_of_a_device(arguments: &Render, inputs: &Inputs, mut timing: Timing) -> Result<(), Failure> {
-    let filter = if arguments.msaa == 1 { Filter::Centre } else { Filter::Box };
-    let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
-    complain(NO_DEVICE);
-    let (picture, counts) = render(inputs, &arguments.picture, options, PLAIN, &mut timing)?;
-    finish(&arguments.picture, inputs, &picture, counts, &mut timing)
-}
-
-#[cfg(feature = "gpu")]
-const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
-
-/// The same of a scene as it is.
-#[cfg(feature = "viewer")]
-pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
-    let options = Options { shadows: false, ..Options::default() };
-    let renderer = Renderer::new(scene, settings, &SheenTable::embedded(), options).map_err(failure)?;
-    complain(NO_DEVICE);
-    let picture = with_progress("reference", |step| {
-        renderer.render(&scene.cameras[0], size, PLAIN, |done, all| {
-            step(done as usize, all as usize);
-            true
-        })
-    });
-    Ok(picture.map_err(failure)?.radiance)
 }

@@ -1,7 +1,7 @@
 //! Many fibres, and the first of them that a ray meets.
 
 use super::fibre::{Fibre, Hit};
-use crate::reference::bvh::{Bvh, Primitive, Ray};
+use crate::bvh::{Bvh, Primitive, Ray};
 use glam::DVec3;
 
 /// Fibres of one radius in a tree of boxes.

@@ -2,12 +2,10 @@
 
 use super::{Plate, Shot};
 use crate::reference::Options;
-use crate::scene::{Layering, Overrides, Scene, Settings, gltf};
+use crate::scene::assets::{DRAPE, DUST};
+use crate::scene::{Layering, Overrides, Scene, Settings};
 use glam::Vec3;
 use std::collections::BTreeMap;
-
-const DRAPE: &[u8] = include_bytes!("../../../assets/drape.glb");
-const DUST: &[u8] = include_bytes!("../../../assets/dust.glb");
 
 /// Colour of the cloth's sheen.
 const COLOR: Vec3 = Vec3::new(0.6, 0.55, 0.5);
@@ -24,7 +22,7 @@ pub fn plates() -> Vec<Plate> {
 fn cloth(name: &str, alpha: Option<f32>) -> Plate {
     let says = alpha.map_or("no sheen".to_owned(), |alpha| format!("alpha {alpha}, C_sheen {COLOR}, layering gltf"));
     let make = move |progress: &super::Progress| {
-        let scene = gltf::from_slice(DRAPE, "drape.glb")?;
+        let scene = DRAPE.load()?;
         let velvet = named(&scene, "velvet");
         let overrides = Overrides {
             alpha: Some(alpha.unwrap_or(1.0)),
@@ -46,7 +44,7 @@ fn cloth(name: &str, alpha: Option<f32>) -> Plate {
 fn dust() -> Plate {
     const ALPHA: f32 = 0.85;
     let make = |progress: &super::Progress| {
-        let scene = gltf::from_slice(DUST, "dust.glb")?;
+        let scene = DUST.load()?;
         let dusty = named(&scene, "dusty");
         let overrides = Overrides { alpha: Some(ALPHA), ..Overrides::default() };
         let settings = Settings { material_overrides: BTreeMap::from([(dusty, overrides)]), ..Settings::default() };

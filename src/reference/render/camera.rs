@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{Camera, Projection};
 
 /// A camera and its picture's size.
@@ -18,8 +18,8 @@ impl View {
         Self { world_from_camera, projection: camera.projection, size: size.map(f64::from) }
     }
 
-    /// The ray through a point of the picture, in pixels from its upper left corner, and the distances along it between which
-    /// surfaces are seen.
+    /// The ray through a point of the picture, in pixels from its upper left corner, and the distances along it between
+    /// which surfaces are seen.
     pub fn ray(&self, [x, y]: [f64; 2]) -> (Ray, [f64; 2]) {
         let [width, height] = self.size;
         let (right, up) = ((2.0 * x - width) / height, 1.0 - 2.0 * y / height);
@@ -33,7 +33,7 @@ impl View {
                 (DVec3::new(right * extent, up * extent, 0.0), DVec3::NEG_Z, [near, far])
             }
         };
-        // The direction goes one unit deep.
+        // The direction reaches one unit of depth, so depths times its length are distances.
         let length = direction.length();
         let ray = Ray {
             origin: self.world_from_camera.transform_point3(origin),

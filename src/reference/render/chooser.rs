@@ -1,16 +1,17 @@
-//! How light is looked for on the polygons: by which lobe, and, where they are many, on which: in proportion to what they send to the view
-//! together.
+//! How polygons are sampled: by which lobe and, where there are many, on which polygon, in proportion to the light that
+//! the lobe scatters from it to the view.
 //!
-//! A lobe that is a transformed cosine is sampled over a polygon with its own density, so that its estimate is exact but for what
-//! stands in the way; a lobe that only resembles one is left with the ratio of both.
+//! A lobe that is a transformed cosine is sampled over a polygon with its own density, so that the estimate is exact
+//! but for what stands in the way; for a lobe that only resembles one, the ratio of the two is left as noise.
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::lights::{Lit, Seen, worth};
+use super::lights::{Lit, Seen};
+use super::luminance::luminance;
 use crate::table::Ltc;
 
-/// Lobes that lights are sampled by, each of a colour.
+/// The transformed cosines that lights are sampled by, each with its colour.
 pub(super) type Sampled = SmallVec<[(DVec3, Ltc); 4]>;
 
 /// The lights that a point sees, by the lobes that they are sampled with.
@@ -19,7 +20,7 @@ pub(super) struct Chooser<'a> {
     parts: SmallVec<[Part<'a>; 4]>,
     /// What all parts are worth: the sum over lobes of colour, radiance and share of the lobe.
     worth: f64,
-    /// Samples that are taken: one on each part, or fewer among them all.
+    /// How many samples are taken: one on each part, or fewer, each on a part that is chosen.
     samples: usize,
 }
 
@@ -29,12 +30,12 @@ struct Part<'a> {
     /// What each lobe is worth there.
     by_lobe: SmallVec<[f64; 4]>,
     worth: f64,
-    /// The sum of the parts' worth up to this one, over that of all, where there is any.
+    /// The worth of the parts up to this one, as a share of that of all; not a number where none is worth anything.
     until: f64,
 }
 
 impl<'a> Chooser<'a> {
-    /// Of lobes, and of the parts of lights that are seen, from which `most` samples are taken at most.
+    /// Samples the parts of lights that are seen, by these lobes, with `most` samples at most.
     pub fn new(lobes: Sampled, seen: SmallVec<[Seen<'a>; 4]>, most: usize) -> Self {
         let mut sum = 0.0;
         let part = |seen: Seen<'a>| {
@@ -50,17 +51,18 @@ impl<'a> Chooser<'a> {
         Self { lobes, parts, worth: sum, samples }
     }
 
-    /// How many directions there are to be sampled.
+    /// How many directions are to be sampled.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// The lit direction `index` of as many, from three uniform numbers in \[0, 1); none on a part that sends nothing.
+    /// The lit direction `index` of [`Self::samples`], from three uniform numbers in \[0, 1); none on a part that sends
+    /// nothing.
     pub fn sample(&self, index: usize, [choice, uniforms @ ..]: [f64; 3]) -> Option<Lit> {
         let (part, choice) = if self.samples == self.parts.len() {
             (self.parts.get(index)?, choice)
         } else {
-            // Each sample its own stretch of the parts.
+            // Stratified: each sample has its own stretch of the parts.
             let at = (index as f64 + choice) / self.samples as f64;
             let found = self.parts.partition_point(|part| part.until <= at);
             let part = self.parts.get(found).or(self.parts.last())?;
@@ -71,12 +73,12 @@ impl<'a> Chooser<'a> {
             rest -= worth;
             rest < 0.0
         });
-        // Rounding of the sum, which may have ended at a lobe that has no share.
+        // Rounding may lead past the last lobe, or to one that has no share.
         let lobe = lobe.or_else(|| part.by_lobe.iter().rposition(|worth| *worth > 0.0))?;
         part.seen.sample(&self.lobes[lobe].1, uniforms)
     }
 
-    /// How many of the samples are expected in a direction on that part of a light, per steradian.
+    /// How many samples are expected per steradian in a direction on that part of a light.
     pub fn density(&self, lit: &Lit) -> f64 {
         if self.samples == 0 {
             return 0.0;
@@ -90,10 +92,15 @@ impl<'a> Chooser<'a> {
         part.map_or(0.0, |part| found / part.worth)
     }
 
-    /// What a direction meets of the lights, one behind the other.
+    /// The lights that lie in a direction, one behind the other.
     pub fn along(&self, wo: DVec3) -> impl Iterator<Item = Lit> + '_ {
         self.parts.iter().filter_map(move |part| part.seen.along(wo))
     }
+}
+
+/// How much a lobe's colour and a light's radiance are worth together.
+fn worth(color: DVec3, radiance: DVec3) -> f64 {
+    luminance(color * radiance)
 }
 
 #[cfg(test)]
@@ -153,7 +160,7 @@ mod tests {
                     assert!(lit.wo.z > 0.0 && up.dot(lit.wo) > -1e-9);
                     sums[0] += value(lit.wo) * lit.radiance / chooser.density(&lit);
                 }
-                // Both lobes as often as they are bright, one sample each.
+                // One sample of each lobe, weighted by its colour.
                 for (color, ltc) in &lobes {
                     let wo = ltc.sample([rng.random(), rng.random()]);
                     let found: DVec3 = chooser.along(wo).map(|lit| *color * lit.radiance).sum();

@@ -1,21 +1,21 @@
 //! Convex polygons, sampled by projected solid angle.
 //!
-//! Seen from the origin and laid down on the plane z = 0, directions of density cos / pi are points of even density on the unit
-//! disc. There a great circle is an ellipse about the origin, and the sector between the zenith and an arc of it has the area
-//! (n_z / 2) x (the arc's angle), n the unit normal of the arc's plane (Lambert 1760). Where the zenith lies in the polygon, its
-//! sectors make it up; otherwise what lies between an outer and an inner chain of arcs does, azimuth by azimuth. Peters 2021, "BRDF
-//! importance sampling for polygonal lights", samples the same areas.
+//! Projected from the unit sphere onto the plane z = 0, directions of density cos / pi become points of uniform density
+//! on the unit disc. There a great circle is an ellipse about the origin, and the sector between the zenith and an arc
+//! of it has the area (n_z / 2) x (the arc's angle), n the unit normal of the arc's plane (Lambert 1760). Where the
+//! zenith lies in the polygon, its sectors make it up; otherwise what lies between an outer and an inner chain of arcs
+//! does, azimuth by azimuth. Peters 2021, "BRDF importance sampling for polygonal lights", samples the same areas.
 
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 use std::f64::consts::PI;
 
-/// Newton's steps to an azimuth: with the bracket that they keep, more than doubles need.
+/// Newton steps towards an azimuth; as they are kept in a bracket, this is more than `f64` needs.
 const STEPS: usize = 24;
-/// Share of a sector's area to which its azimuth is found.
+/// How exactly an azimuth is found: error of the area up to it, as a share of the sector's.
 const TOLERANCE: f64 = 1e-14;
 
-/// Vertices in order. Those of few corners, which most lights are, need no memory of their own.
+/// Vertices in order; a few, as most lights have, without an allocation.
 pub(super) type Outline = SmallVec<[DVec3; 8]>;
 
 /// The share of the cosine's hemisphere that a polygon above the horizon takes: in \[0, 1\] where its azimuth runs
@@ -28,7 +28,7 @@ pub(super) fn edges(vertices: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> 
     vertices.iter().copied().zip(vertices.iter().copied().cycle().skip(1))
 }
 
-/// The area between the zenith and the arc from `p` to `q`, laid down on the disc.
+/// The area between the zenith and the arc from `p` to `q`, projected onto the disc.
 fn sector(p: DVec3, q: DVec3) -> f64 {
     let normal = p.cross(q);
     let length = normal.length();
@@ -70,7 +70,7 @@ pub(super) struct Convex {
 type Sectors = SmallVec<[Sector; 8]>;
 
 impl Convex {
-    /// Of vertices in order either way round, z >= 0, in a polygon that is convex seen from the origin.
+    /// From the vertices in order, either way round, with z >= 0; the polygon is convex as seen from the origin.
     pub fn new(vertices: &[DVec3]) -> Self {
         let mut vertices: Outline = vertices.iter().filter_map(|vertex| vertex.try_normalize()).collect();
         let normal: DVec3 = edges(&vertices).map(|(p, q)| p.cross(q)).sum();
@@ -94,7 +94,7 @@ impl Convex {
             }
             area -= sector.area;
         }
-        // Rounding of the sum.
+        // Past the last by rounding.
         Some(last.sample(1.0, height))
     }
 }
@@ -110,7 +110,7 @@ fn around_zenith(vertices: &[DVec3]) -> Sectors {
     edges(vertices).map(one).collect()
 }
 
-/// Sectors from one vertex' azimuth to the next, of a polygon that the zenith is outside of.
+/// Sectors from the azimuth of one vertex to that of the next, of a polygon that does not hold the zenith.
 fn between_chains(vertices: &[DVec3]) -> Sectors {
     let count = vertices.len();
     let middle = vertices.iter().sum::<DVec3>().truncate().normalize_or_zero();
@@ -122,7 +122,7 @@ fn between_chains(vertices: &[DVec3]) -> Sectors {
     let azimuths: SmallVec<[f64; 8]> = vertices.iter().map(azimuth).collect();
     let extreme = |sign: f64| (0..count).max_by(|&i, &j| (sign * azimuths[i]).total_cmp(&(sign * azimuths[j])));
     let (Some(first), Some(last)) = (extreme(-1.0), extreme(1.0)) else { return Sectors::new() };
-    // Outwards the vertices run from the first azimuth to the last, on the inside back.
+    // On the outside the vertices run from the first azimuth to the last, and on the inside back.
     let chain = |from: usize, to: usize, step: usize| {
         let mut chain: SmallVec<[usize; 8]> = smallvec::smallvec![from];
         while chain[chain.len() - 1] != to {
@@ -143,7 +143,7 @@ fn between_chains(vertices: &[DVec3]) -> Sectors {
         sector.area = sector.area_to(1.0);
         sectors.push(sector);
         from = to;
-        // At one azimuth both go on.
+        // At the same azimuth both chains advance.
         let both = azimuths[next_out] == azimuths[next_in];
         out += usize::from(outer_first);
         into += usize::from(!outer_first || both);
@@ -207,7 +207,7 @@ impl Sector {
     fn sample(&self, area: f64, height: f64) -> DVec3 {
         let azimuth = self.azimuth(self.share_of(area));
         let [outer, inner] = self.heights(azimuth);
-        // Even in the square of the radius, and so in that of z.
+        // Uniform in the square of the radius, and so in that of z.
         let square = inner + height * (outer - inner);
         (azimuth.normalize_or_zero() * (1.0 - square).max(0.0).sqrt()).extend(square.sqrt()).normalize()
     }
@@ -222,7 +222,8 @@ mod tests {
 
     use crate::reference::polygon::form_factor;
 
-    /// Polygons above the horizon: around the zenith, beside it, with it on an edge and at a corner, along the horizon, small, and narrow.
+    /// Polygons above the horizon: around the zenith, beside it, with it on an edge and at a corner, along the horizon,
+    /// small, and narrow.
     fn polygons() -> Vec<Vec<DVec3>> {
         let at = |corners: &[[f64; 3]]| corners.iter().map(|corner| DVec3::from(*corner)).collect::<Vec<_>>();
         let disk = (0..32).map(|k| {
@@ -256,7 +257,8 @@ mod tests {
         }
     }
 
-    /// Halves of each polygon, by planes through random directions in it, are found in proportion to their form factors.
+    /// Halves of each polygon, by planes through random directions in it, are found in proportion to their form
+    /// factors.
     #[test]
     fn samples_fall_on_each_part_in_proportion_to_its_form_factor() {
         const SAMPLES: u32 = 40_000;

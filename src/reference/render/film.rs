@@ -1,8 +1,8 @@
-//! A picture's sums, and how far they may be off.
+//! A picture's means, and their standard errors.
 
 use glam::DVec3;
 
-use super::luminance;
+use super::luminance::luminance;
 use crate::picture::LinearImage;
 
 /// A pixel's mean and the scatter of its batches about it (Welford 1962, weighted).
@@ -26,7 +26,7 @@ impl Film {
         Self { size, pixels: vec![Pixel::default(); count], samples: 0, batches: 0 }
     }
 
-    /// Adds a batch of `samples` a pixel, of which each has its mean.
+    /// Adds a batch of `samples` a pixel, by the mean of each pixel's.
     pub fn add(&mut self, means: impl Iterator<Item = DVec3>, samples: u64) {
         self.samples += samples;
         self.batches += 1;
@@ -44,7 +44,7 @@ impl Film {
             let pixels = pixels.iter().map(|pixel| value(pixel).as_vec3().to_array()).collect();
             LinearImage { width, height, pixels }
         };
-        // Brighter than the file's numbers go is as bright as they go.
+        // What is brighter than a file's numbers go is stored as their greatest.
         let greatest = f64::from(f32::MAX);
         let deviation = |pixel: &Pixel| {
             let scale = if batches > 1 { 1.0 / ((batches - 1) as f64 * samples as f64) } else { f64::NAN };
@@ -62,18 +62,20 @@ impl Film {
 /// A rendered picture.
 #[derive(Clone, Debug)]
 pub struct Picture {
+    /// The mean of each pixel's samples.
     pub radiance: LinearImage,
-    /// The standard error of each pixel and channel, estimated from its batches; not a number where there is one batch only.
+    /// The standard error of each pixel and channel, estimated from its batches; not a number where there is one batch
+    /// only.
     pub errors: LinearImage,
     /// Samples a pixel.
     pub samples: u64,
-    /// Of how many independent batches.
+    /// Independent batches that the samples come in.
     pub batches: u64,
 }
 
 impl Picture {
-    /// The mean standard error of the pixels' luminance over their mean luminance: 0.01 is one percent of noise. None where it is
-    /// not known, or all is black.
+    /// The mean standard error of the pixels' luminance over their mean luminance: 0.01 is one percent of noise. None
+    /// where it is not known, or where everything is black.
     pub fn relative_error(&self) -> Option<f64> {
         let sum =
             |image: &LinearImage| image.pixels.iter().map(|pixel| luminance(pixel.map(f64::from).into())).sum::<f64>();
@@ -81,7 +83,8 @@ impl Picture {
         (errors.is_finite() && radiance > 0.0).then(|| errors / radiance)
     }
 
-    /// The standard error below which a share in \[0, 1\] of the pixels that are not black lies, over the pixel's luminance.
+    /// The standard error of a pixel's luminance, relative to it, that `share` in \[0, 1\] of the pixels that are not
+    /// black stay below.
     pub fn error_quantile(&self, share: f64) -> Option<f64> {
         let pair = |(error, pixel): (&[f32; 3], &[f32; 3])| {
             let [error, radiance] = [error, pixel].map(|pixel| luminance(pixel.map(f64::from).into()));

@@ -4,15 +4,13 @@ use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
 use super::convex::{Convex, Outline, clip, cosine_share, edges};
-use super::luminance;
-use crate::reference::bvh::Ray;
 use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
 use crate::table::Ltc;
 
-/// A point no further from a light's plane than this share of the largest coordinate is in it, as in real time: emitters are stored
-/// in `f32`, and no light shines on itself.
+/// A point is in a light's plane where its distance from it is at most this share of the largest coordinate, as in real
+/// time: emitters are stored in `f32`, and no light shines on itself.
 const IN_PLANE: f64 = 1e-6;
-/// Distances to lights without extent are no less, metres.
+/// Least distance to a light without extent, metres.
 const NEAREST: f64 = 1e-6;
 
 /// A convex part of a polygon light.
@@ -21,7 +19,7 @@ pub(super) struct Part {
     normal: DVec3,
     radiance: DVec3,
     two_sided: bool,
-    /// Of its emitter.
+    /// Its emitter, in `Scene::instances`.
     instance: usize,
     /// Of a sphere around it.
     center: DVec3,
@@ -34,7 +32,7 @@ pub(super) struct Lights<'a> {
     pub punctual: &'a [PunctualLight],
 }
 
-/// A part as a point sees it: what of it is above the horizon, in the point's frame.
+/// A part as a point sees it: as much of it as is above the horizon, in the point's frame.
 pub(super) struct Seen<'a> {
     part: &'a Part,
     index: usize,
@@ -48,9 +46,9 @@ pub(super) struct Lit {
     pub wo: DVec3,
     pub radiance: DVec3,
     pub distance: f64,
-    /// The emitter's.
+    /// Its emitter, in `Scene::instances`.
     pub instance: usize,
-    /// Which part of all lights.
+    /// Index among the parts of all lights.
     pub part: usize,
 }
 
@@ -61,7 +59,8 @@ impl<'a> Lights<'a> {
         Self { parts: parts.collect(), punctual: &scene.punctual_lights }
     }
 
-    /// What a point sees of them: `p_world` and its frame, `up` the surface's own normal in it, which a normal map leaves.
+    /// The parts that a point sees, in the point's frame; `up` is the interpolated normal in it, from which a normal
+    /// map turns away.
     pub fn seen(&self, p_world: DVec3, local_from_world: DMat3, up: DVec3) -> SmallVec<[Seen<'_>; 4]> {
         let seen = |part: &'_ Part| {
             let to_vertex = part.vertices[0] - p_world;
@@ -86,7 +85,7 @@ impl<'a> Lights<'a> {
 }
 
 impl Seen<'_> {
-    /// Which part of all lights.
+    /// Index among the parts of all lights.
     pub fn index(&self) -> usize {
         self.index
     }
@@ -113,14 +112,14 @@ impl Seen<'_> {
     }
 
     fn lit(&self, wo: DVec3) -> Lit {
-        // The plane through any three vertices that span it; outlines are cut, so it is the part's own.
+        // The outline is cut, but still in the part's plane: all its corners together span that best.
         let normal: DVec3 = edges(&self.outline).map(|(p, q)| (p - self.outline[0]).cross(q - self.outline[0])).sum();
         let distance = normal.dot(self.outline[0]) / normal.dot(wo);
         let distance = if distance.is_finite() { distance.abs() } else { self.outline[0].length() };
         Lit { wo, radiance: self.part.radiance, distance, instance: self.part.instance, part: self.index }
     }
 
-    /// What a direction meets of it.
+    /// Where a direction meets it, if it does.
     pub fn along(&self, wo: DVec3) -> Option<Lit> {
         let sides = || edges(&self.outline).map(|(p, q)| p.cross(q).dot(wo));
         let inside = sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0);
@@ -142,8 +141,8 @@ fn parts(light: &Light, polygon: &Polygon) -> impl Iterator<Item = Part> {
     })
 }
 
-/// What a light without extent sends to a point: the direction to it, the distance (infinite for directional ones), and the
-/// irradiance across the ray (KHR_lights_punctual).
+/// What a light without extent sends to a point: the direction to it, the distance (infinite for directional ones), and
+/// the irradiance across the ray (KHR_lights_punctual).
 pub(super) fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, f64, DVec3) {
     let (intensity, direction) = (light.intensity.as_dvec3(), light.direction.as_dvec3());
     let way = light.position.as_dvec3() - p_world;
@@ -160,16 +159,6 @@ pub(super) fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, f64, DV
             (way / distance, distance, intensity * falloff(range) * cone)
         }
     }
-}
-
-/// The ray from a point towards a lit direction.
-pub(super) fn shadow_ray(origin: DVec3, world_from_local: DMat3, wo: DVec3) -> Ray {
-    Ray { origin, direction: (world_from_local * wo).normalize() }
-}
-
-/// How much a lobe's colour and a light's radiance are worth together.
-pub(super) fn worth(color: DVec3, radiance: DVec3) -> f64 {
-    luminance(color * radiance)
 }
 
 fn middle(vertices: &[DVec3]) -> DVec3 {

@@ -1,4 +1,4 @@
-//! The lobes of a surface at a point: what they scatter, and how directions are found in them.
+//! The lobes of a surface at a point: what they scatter, and how directions are sampled in them.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -15,11 +15,12 @@ pub(super) const COSINE: Ltc = Ltc { a: 1.0, b: 0.0, c: 1.0 };
 
 /// A lobe as it is seen from `wi`.
 pub(super) struct Lobe<'a> {
-    /// What its density, or its model, is multiplied by.
+    /// By which its density, or its model, is multiplied.
     pub color: DVec3,
-    /// A transformed cosine that it is, or that is near it: lights are sampled by it.
+    /// The transformed cosine that it is, or that resembles it: lights are sampled by it.
     pub ltc: Ltc,
-    /// Light is scattered about as by that. Lobes of earlier models are not: lights are sampled by the plain cosine too.
+    /// It scatters light much as that cosine does. Earlier models do not: for them lights are sampled by the plain
+    /// cosine too.
     pub is_near: bool,
     /// Under the layer of fibres.
     is_base: bool,
@@ -71,7 +72,7 @@ impl SheenAlbedo<'_> {
 }
 
 impl<'a> Lobes<'a> {
-    /// Those of the surface that are wanted, as the view sees them.
+    /// Those of the surface's lobes that are wanted, as the view sees them.
     pub fn new(surface: &Surface, models: &'a Models, wanted: Wanted) -> Self {
         let mut found = Self { lobes: SmallVec::new(), wi: surface.wi, reciprocal: None };
         let mu = surface.mu();
@@ -88,7 +89,7 @@ impl<'a> Lobes<'a> {
         found
     }
 
-    /// Those of the base alone with nothing on top, from a direction of cosine `mu` and azimuth 0.
+    /// Those of the base alone, with nothing on top, as seen from a direction of cosine `mu` and azimuth 0.
     pub fn bare(surface: &Surface, models: &'a Models, wanted: Wanted, mu: f64) -> Self {
         let mut found = Self { lobes: SmallVec::new(), wi: DVec3::new(sine(mu), 0.0, mu), reciprocal: None };
         found.add_base(surface, models, wanted, 1.0);
@@ -158,8 +159,9 @@ impl<'a> Lobes<'a> {
         self.reciprocal.map_or(1.0, rule)
     }
 
-    /// What a direction found in them weighs against one found on the lights. Where all are transformed cosines the lights find all; where
-    /// they are near some, nearly all, and of large lights the lobes would bring noise of their own.
+    /// How much a direction sampled in the lobes weighs against one sampled on the lights. Where all lobes are
+    /// transformed cosines, sampling the lights finds everything; where they resemble some, nearly everything, and for
+    /// large lights samples of the lobes would add noise.
     pub fn weight(&self) -> f64 {
         if self.lobes.iter().all(|lobe| matches!(lobe.shape, Shape::Ltc)) {
             0.0
@@ -186,9 +188,9 @@ impl<'a> Lobes<'a> {
             .sum()
     }
 
-    /// How much of the samples each lobe is given: as much as it scatters.
+    /// The share of samples that each lobe gets: by its albedo.
     fn shares(&self) -> impl Iterator<Item = (f64, &Lobe<'a>)> + '_ {
-        // No lobe without samples of its own.
+        // No lobe goes without samples.
         let weight = |lobe: &Lobe| lobe.albedo(self.wi.z).max_element().max(1e-3 * lobe.color.max_element());
         let all: f64 = self.lobes.iter().map(weight).sum();
         self.lobes.iter().map(move |lobe| (weight(lobe) / all, lobe))
@@ -224,25 +226,9 @@ impl<'a> Lobes<'a> {
         wo.filter(|wo| wo.z > 0.0)
     }
 
-    /// The share of light of a uniform environment that is scattered to the view, nothing in its way. Of the reciprocal rule it has no
-    /// closed form.
+    /// The share of a uniform environment's light that is scattered to the view, with nothing in the way. Under the
+    /// reciprocal rule it has no closed form.
     pub fn albedo(&self) -> Option<DVec3> {
         self.reciprocal.is_none().then(|| self.lobes.iter().map(|lobe| lobe.albedo(self.wi.z)).sum())
-    }
-}
-
-/// The specular base at a point.
-pub(super) struct SpecularAt<'a> {
-    /// The transformed cosine.
-    pub ltc: Ltc,
-    /// Of a mirror, and its Fresnel share.
-    pub shares: [f64; 2],
-    pub facets: Option<&'a Ggx>,
-}
-
-impl SpecularAt<'_> {
-    fn albedo(&self, schlick: &[Schlick; 3]) -> DVec3 {
-        let [albedo, fresnel] = self.shares;
-        DVec3::from(schlick.each_ref().map(|schlick| schlick.albedo(albedo, fresnel)))
     }
 }

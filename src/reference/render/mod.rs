@@ -1,107 +1,73 @@
 //! The picture by Monte Carlo.
 //!
-//! Rays go through a hierarchy of boxes ([`super::bvh`]); where they meet a surface, light is looked for on the polygons and in the lobes, and
-//! weighed by multiple importance sampling. With shadows off and the lobes of real time the expected picture is the one that
-//! `velour render --msaa 1` computes in closed form; the other models and `--layering walk` show what that approximates.
+//! Rays go through a hierarchy of boxes ([`crate::bvh`]); where they meet a surface, direct light is sampled on the
+//! polygons and in the lobes, and both are weighed by multiple importance sampling. With shadows off and the lobes of
+//! real time the expected picture is the one that `velour render --msaa 1` computes in closed form; the other models
+//! and `--layering walk` show what that approximates.
 //!
 //! The same seed gives the same picture, to the last bit, on any number of threads.
+//!
+//! Files stand on floors: each uses only files of the floors below its own, and this one stands on top.
+//!
+//! | floor | files |
+//! |---|---|
+//! | paths | `path`: radiance along a ray, from surface to surface |
+//! | layers | `stack`: a random walk through a layer of fibres and its base |
+//! | scattering | `scatter`: direct light off the lobes of a surface, and the direction in which a path goes on |
+//! | direct light | `direct`: what a point receives from the lights, and what stands in the way |
+//! | scene | `context`: all that light meets, with settings and options; `lobes`: what a surface scatters at a point |
+//! | models | `models`: the scattering models of each material |
+//! | points | `surface`: materials at a point, in its frame; `chooser`: which light is sampled, and by which lobe |
+//! | parts | `world`: surfaces as rays meet them; `lights`: polygons as points see them; `film`: means of samples |
+//! | ground | `options`, `error`, `camera`, `uniforms`, `texels`, `convex`, `luminance`: nothing of the others |
 
 mod camera;
 mod chooser;
+mod context;
 mod convex;
+mod direct;
+mod error;
 mod film;
 mod lights;
 mod lobes;
+mod luminance;
 mod models;
+mod options;
 mod path;
+mod scatter;
 mod stack;
 mod surface;
 mod texels;
-mod triangle;
 mod uniforms;
 mod world;
 
+pub use error::ReferenceError;
 pub use film::Picture;
+pub use options::{Effort, Filter, Options, SpecularModel};
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use camera::View;
+use context::Context;
 use film::Film;
 use glam::DVec3;
-use lights::Lights;
-use models::Models;
-use path::{Light, Sample};
 use rayon::prelude::*;
-use uniforms::Uniforms;
-use world::World;
+use uniforms::{Sample, Uniforms};
 
 use crate::scene::{Camera, Scene, Settings};
 use crate::table::SheenTable;
 
-/// Batches of samples that are made where there are enough: from their scatter errors are estimated.
+/// Batches that the samples are divided into, where there are enough of them: errors are estimated from the batches'
+/// scatter.
 const BATCHES: u64 = 32;
-/// Most samples of a batch: a picture that is asked to end is made of whole batches.
+/// Most samples a pixel in a batch: a picture that is ended early is made of whole batches.
 const BATCH_MOST: u64 = 16;
-/// Pixels that a thread takes at a time.
+/// Pixels that a thread renders at a time.
 const TILE: usize = 256;
-
-/// A reference picture could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum ReferenceError {
-    #[error(
-        "the scene's instances have {triangles} triangles in all, past the {most} that the reference holds: draw fewer instances"
-    )]
-    Triangles { triangles: usize, most: usize },
-    #[error("a picture of {}x{} pixels is past what the reference holds: use at most {most} pixels", size[0], size[1])]
-    Size { size: [u32; 2], most: u64 },
-}
-
-/// What counts beside the settings that all ways of rendering share.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Surfaces that light meets between a light and the one that is seen: 0 is direct light.
-    pub max_bounces: u32,
-    /// Surfaces stand in each other's light.
-    pub shadows: bool,
-    pub filter: Filter,
-    pub specular: SpecularModel,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { max_bounces: 0, shadows: true, filter: Filter::Box, specular: SpecularModel::Ltc }
-    }
-}
-
-/// Where a pixel's samples lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Filter {
-    /// All over the pixel.
-    Box,
-    /// At its centre, where `velour render --msaa 1` takes its value.
-    Centre,
-}
-
-/// What the lobe of the specular base is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpecularModel {
-    /// The transformed cosine of real time.
-    Ltc,
-    /// GGX microfacets themselves.
-    Ggx,
-}
-
-/// How much is done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
-    /// Samples a pixel, at least 1.
-    pub samples: u64,
-    pub seed: u64,
-}
 
 /// A scene ready to be rendered.
 pub struct Reference<'a> {
-    light: Light<'a>,
+    context: Context<'a>,
     rays: AtomicU64,
 }
 
@@ -109,32 +75,25 @@ impl<'a> Reference<'a> {
     /// Most pixels of a picture.
     pub const PIXELS_MAX: u64 = 1 << 25;
 
-    /// Whether a picture of this size is rendered: some hundred bytes a pixel.
+    /// Refuses pictures of more pixels than [`Self::PIXELS_MAX`]; each takes some hundred bytes.
     pub fn check_size(size: [u32; 2]) -> Result<(), ReferenceError> {
         let fits = u64::from(size[0]) * u64::from(size[1]) <= Self::PIXELS_MAX;
         if fits { Ok(()) } else { Err(ReferenceError::Size { size, most: Self::PIXELS_MAX }) }
     }
 
-    /// Builds the hierarchy over all that is drawn.
+    /// Builds the hierarchy over everything that is drawn.
     pub fn new(
         scene: &'a Scene,
         settings: &'a Settings,
         table: &SheenTable,
         options: Options,
     ) -> Result<Self, ReferenceError> {
-        let light = Light {
-            world: World::new(scene, settings)?,
-            lights: Lights::new(scene),
-            models: Models::new(scene, settings, table, options.specular),
-            settings,
-            options,
-        };
-        Ok(Self { light, rays: AtomicU64::new(0) })
+        Ok(Self { context: Context::new(scene, settings, table, options)?, rays: AtomicU64::new(0) })
     }
 
     /// Triangles of all instances.
     pub fn triangles(&self) -> usize {
-        self.light.world.triangles()
+        self.context.world.triangles()
     }
 
     /// Rays that have been followed so far, those towards lights included.
@@ -142,8 +101,8 @@ impl<'a> Reference<'a> {
         self.rays.load(Ordering::Relaxed)
     }
 
-    /// Renders on the threads of the current rayon pool. `go_on` is told (done, all) steps of equal size after each, from any thread; once it says no, the
-    /// picture is what whole batches there are, but at least one.
+    /// Renders on the threads of the current rayon pool. `go_on` is told (done, all) steps of equal size after each,
+    /// from any thread; once it says no, the picture is made of the whole batches that there are, at least one.
     pub fn render(
         &self,
         camera: &Camera,
@@ -196,9 +155,9 @@ impl<'a> Reference<'a> {
             let one = |index: u64| {
                 let mut sample = Sample { uniforms: Uniforms::new(seed, pixel, batch, index as u32), rays: 0 };
                 let [x, y, ..] = sample.uniforms.next();
-                let [x, y] = if self.light.options.filter == Filter::Box { [x, y] } else { [0.5, 0.5] };
+                let [x, y] = if self.context.options.filter == Filter::Box { [x, y] } else { [0.5, 0.5] };
                 let (ray, range) = view.ray([corner[0] + x, corner[1] + y]);
-                let radiance = self.light.radiance(&ray, range, &mut sample);
+                let radiance = path::radiance(&self.context, &ray, range, &mut sample);
                 rays += sample.rays;
                 radiance
             };
@@ -210,8 +169,8 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Samples of each batch, one after another: of as many as make [`BATCHES`], up to [`BATCH_MOST`], in powers of two, which spread best. The first are
-/// smaller, so that there is a picture soon.
+/// How many samples each batch has, in order: a power of two, which is stratified best, that makes about [`BATCHES`]
+/// batches, or [`BATCH_MOST`]. The first ones are smaller, so that there is a picture soon.
 fn batches(samples: u64) -> impl Iterator<Item = u64> + Clone {
     let usual = 1_u64 << (samples / BATCHES).clamp(1, BATCH_MOST).ilog2();
     let mut left = samples;
@@ -221,9 +180,4 @@ fn batches(samples: u64) -> impl Iterator<Item = u64> + Clone {
         left -= size;
         (size > 0).then_some(size)
     })
-}
-
-/// Rec. 709.
-fn luminance(color: DVec3) -> f64 {
-    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }

@@ -2,19 +2,20 @@
 
 use std::sync::OnceLock;
 
-use super::SpecularModel;
-use super::lobes::SpecularAt;
+use glam::DVec3;
+
+use super::options::SpecularModel;
 use super::surface::SheenAt;
 use crate::models::{
     Bsdf, Burley, ContyKulla, Ggx, LtcSheen, NeubeltPettineo, Patry, Schlick, SheenWalk, SlabSheen, Terminator,
 };
 use crate::scene::{Material, Scene, Settings, SheenModel, TextureSlot};
-use crate::table::{GgxLobe, GgxTable, SheenTable, SlabTable};
+use crate::table::{GgxLobe, GgxTable, Ltc, SheenTable, SlabTable};
 
-/// Textured roughnesses are rounded to as many steps; the transformed cosines are not.
+/// Textured roughnesses are rounded to this many steps, except for the transformed cosines.
 const STEPS: usize = 256;
 
-/// Made where they are first asked for.
+/// Models by roughness, each made when it is first asked for.
 struct Steps<T> {
     made: Vec<OnceLock<T>>,
 }
@@ -66,7 +67,8 @@ impl Models {
         }
     }
 
-    /// The sheen's model; of the walk the slab that it walks through. That of real time at any alpha is `sheen_table`.
+    /// The sheen's model; for the walk, the slab that it walks through. Real time's model at any alpha is
+    /// `sheen_table`.
     pub fn sheen(&self, material: usize, at: &SheenAt) -> &dyn Bsdf {
         let make = |alpha: f64| -> Box<dyn Bsdf + Send + Sync> {
             match at.model {
@@ -96,5 +98,21 @@ impl Models {
         let make = |roughness: f64| Ggx::new(roughness, Schlick::MIRROR);
         let facets = self.materials[material].facets.get(roughness.clamp(0.0, 1.0), make);
         SpecularAt { ltc, shares: facets.shares_at(mu.min(1.0)), facets: Some(facets) }
+    }
+}
+
+/// The specular base at a point.
+pub(super) struct SpecularAt<'a> {
+    /// The transformed cosine.
+    pub ltc: Ltc,
+    /// The albedo of a mirror, and its Fresnel share.
+    pub shares: [f64; 2],
+    pub facets: Option<&'a Ggx>,
+}
+
+impl SpecularAt<'_> {
+    pub fn albedo(&self, schlick: &[Schlick; 3]) -> DVec3 {
+        let [albedo, fresnel] = self.shares;
+        DVec3::from(schlick.each_ref().map(|schlick| schlick.albedo(albedo, fresnel)))
     }
 }

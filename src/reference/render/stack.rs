@@ -1,45 +1,40 @@
-//! The layer of fibres as it is: light is followed through it, to the base and back, through all orders of scattering.
+//! The layer of fibres itself, by a random walk: light is followed through the layer, to the base and back, through all
+//! orders of scattering.
 //!
-//! Fibres tint what they scatter by `C_sheen`, once on each way through the layer, so that alone the layer reflects C R; what passes
-//! without a scattering keeps its colour. At each scattering, in the fibres or on the base, a direction to the lights is weighed
-//! against the path's own by the balance heuristic: the density of the last scattering, times the share that leaves the layer after
-//! it, is known.
+//! Fibres tint what they scatter by `C_sheen`, once on each way through the layer, so that by itself the layer reflects
+//! C R; what passes without being scattered keeps its colour. At each scattering event, in the fibres or on the base,
+//! the balance heuristic weighs directions sampled on the lights against the direction in which the path leaves, whose
+//! density is known: that of the last event, times the share of light that leaves the layer after it.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rand::Rng;
 
-use super::chooser::Chooser;
-use super::lights::shadow_ray;
+use super::direct::DirectLight;
 use super::lobes::Lobes;
-use super::path::{Light, Onward, Sample};
-use super::surface::{SheenAt, Surface};
+use super::scatter::{Onward, scattered};
+use super::surface::SheenAt;
+use super::uniforms::Sample;
 use crate::math::frame::AzimuthFrame;
 use crate::math::warp::uniform;
 use crate::models::{Flight, Layer, SheenWalk};
-use crate::scene::{Layering, SheenModel};
+use crate::scene::Layering;
 
-/// Paths that bring less than this are ended at random.
+/// Paths of less throughput, relative to what entered the layer, are ended at random.
 const ROULETTE: f64 = 0.05;
-/// The cosine of views along the surface.
+/// Least cosine at which the walk enters: along the surface it would never leave.
 const GRAZING: f64 = 1e-6;
-
-/// Whether light is followed through this layer.
-pub(super) fn is_walked(at: &SheenAt) -> bool {
-    at.model == SheenModel::Walk || at.layering == Layering::Walk
-}
 
 /// A layer over a base at a point.
 pub(super) struct Stack<'a, 'b> {
-    light: &'a Light<'a>,
-    surface: &'b Surface,
+    light: &'b DirectLight<'a>,
+    /// Of the base, where another rule than the walk layers it.
     lobes: &'b Lobes<'a>,
-    chooser: &'b Chooser<'a>,
     fibres: &'a SheenWalk,
-    /// What the fibres tint by.
+    /// By which the fibres tint.
     color: DVec3,
-    /// How much of the surface the layer covers.
+    /// The share of the surface that the layer covers.
     weight: f64,
-    /// Light goes on to the base; otherwise what leaves by the bottom is lost.
+    /// The walk goes on to the base; otherwise what leaves by the bottom is lost.
     has_base: bool,
 }
 
@@ -47,7 +42,8 @@ pub(super) struct Stack<'a, 'b> {
 struct Sent {
     wo: DVec3,
     radiance: DVec3,
-    /// How many such are expected per steradian; none of lights without extent, which no path finds by itself.
+    /// How many such directions are expected per steradian; none for lights without extent, which no path finds by
+    /// itself.
     density: Option<f64>,
 }
 
@@ -56,19 +52,20 @@ struct Walker {
     depth: f64,
     along: DVec3,
     throughput: DVec3,
-    /// The density of the last scattering in this direction.
+    /// The density with which the last event chose this direction, per steradian.
     pdf: f64,
-    /// On this way through the layer the fibres have scattered it.
+    /// The fibres have scattered it since it entered the layer or left the base.
     is_tinted: bool,
-    /// What was there at first.
+    /// The throughput at the start.
     entered: f64,
-    /// What it has scattered to the view counts: of light that fibres alone have scattered only where the sheen is wanted.
+    /// What it sends to the view is wanted: light that only fibres have scattered is the sheen's.
     counts: bool,
     sum: DVec3,
 }
 
 impl Walker {
-    /// Light that the last scattering sends to the view: `value` scattered, of density `pdf`.
+    /// Adds light that an event scatters: `value` is the scattering function, `pdf` the density with which the path
+    /// itself takes that way.
     fn add(&mut self, sent: &Sent, value: DVec3, pdf: f64) {
         if self.counts {
             let weight = sent.density.map_or(1.0, |own| 1.0 / (own + pdf));
@@ -76,7 +73,7 @@ impl Walker {
         }
     }
 
-    /// Ends some of the paths that bring little, so that the others bring more; false where it ends.
+    /// Ends some of the paths of little throughput, and gives the others more in return; false where this one ends.
     fn survives(&mut self, rng: &mut impl Rng) -> bool {
         let survival = self.throughput.max_element() / (ROULETTE * self.entered);
         if survival >= 1.0 {
@@ -88,31 +85,27 @@ impl Walker {
 }
 
 impl<'a, 'b> Stack<'a, 'b> {
-    pub fn new(
-        light: &'a Light<'a>,
-        surface: &'b Surface,
-        at: &SheenAt,
-        (lobes, chooser): (&'b Lobes<'a>, &'b Chooser<'a>),
-    ) -> Self {
-        let fibres = light.models.walk(surface.material, at);
+    pub fn new(light: &'b DirectLight<'a>, lobes: &'b Lobes<'a>, at: &SheenAt) -> Self {
+        let fibres = light.context.models.walk(light.surface.material, at);
         let has_base = at.layering == Layering::Walk;
         let color = if has_base { at.tint() } else { at.color };
-        Self { light, surface, lobes, chooser, fibres, color, weight: at.weight, has_base }
+        Self { light, lobes, fibres, color, weight: at.weight, has_base }
     }
 
-    /// Light that comes to the view, and, where the path goes `on`, its next ray with what it brings.
+    /// Light that layer and base scatter to the view, and, where the path is to go `on`, its next ray.
     pub fn reflected(&self, on: bool, sample: &mut Sample) -> (DVec3, Onward) {
         let rng = &mut sample.uniforms.stream();
-        let wanted = self.light.settings.lobes;
+        let (surface, context) = (self.light.surface, self.light.context);
+        let wanted = context.settings.lobes;
         if self.has_base {
             if uniform(rng) < self.weight {
                 return self.walked(on, rng, sample);
             }
-            let bare = Lobes::bare(self.surface, &self.light.models, wanted, self.surface.mu());
-            return self.light.scattered(self.surface, (&bare, self.chooser), on, sample);
+            let bare = Lobes::bare(surface, &context.models, wanted, surface.mu());
+            return scattered(self.light, &bare, on, sample);
         }
-        // The base lies below by another rule; chance has it with which of both the path goes on.
-        let (below, base_on) = self.light.scattered(self.surface, (self.lobes, self.chooser), on, sample);
+        // The base is layered by another rule: both scatter, and the path goes on from one of them, chosen at random.
+        let (below, base_on) = scattered(self.light, self.lobes, on, sample);
         if !wanted.sheen {
             return (below, base_on);
         }
@@ -121,17 +114,18 @@ impl<'a, 'b> Stack<'a, 'b> {
         (below + above, chosen.map(|(ray, weight)| (ray, 2.0 * weight)))
     }
 
-    /// What arrives: from directions that are chosen on the lights, and from the lights without extent.
+    /// Light that arrives at the surface: in directions sampled on the polygons, and from the lights without extent.
     fn sent(&self, sample: &mut Sample) -> Vec<Sent> {
-        let mut sent = Vec::with_capacity(self.chooser.samples() + self.light.lights.punctual.len());
-        for index in 0..self.chooser.samples() {
+        let (chooser, punctual) = (&self.light.chooser, self.light.context.lights.punctual);
+        let mut sent = Vec::with_capacity(chooser.samples() + punctual.len());
+        for index in 0..chooser.samples() {
             let [choice, one, other, _] = sample.uniforms.next();
-            let Some(lit) = self.chooser.sample(index, [choice, one, other]) else { continue };
-            let radiance = lit.radiance * self.light.visible(self.surface, &lit, &mut sample.rays);
-            sent.push(Sent { wo: lit.wo, radiance, density: Some(self.chooser.density(&lit)) });
+            let Some(lit) = chooser.sample(index, [choice, one, other]) else { continue };
+            let radiance = lit.radiance * self.light.visible(&lit, &mut sample.rays);
+            sent.push(Sent { wo: lit.wo, radiance, density: Some(chooser.density(&lit)) });
         }
-        for light in self.light.lights.punctual {
-            if let Some((wo, radiance)) = self.light.punctual(light, self.surface, &mut sample.rays) {
+        for light in punctual {
+            if let Some((wo, radiance)) = self.light.punctual(light, &mut sample.rays) {
                 sent.push(Sent { wo, radiance, density: None });
             }
         }
@@ -141,8 +135,7 @@ impl<'a, 'b> Stack<'a, 'b> {
     /// Follows one path until it leaves.
     fn walked(&self, on: bool, rng: &mut impl Rng, sample: &mut Sample) -> (DVec3, Onward) {
         let sent = self.sent(sample);
-        // Along the surface no light would ever leave it.
-        let wi = self.surface.wi;
+        let wi = self.light.surface.wi;
         let mut walker = Walker {
             depth: 0.0,
             along: -DVec3::new(wi.x, wi.y, wi.z.max(GRAZING)).normalize(),
@@ -150,11 +143,11 @@ impl<'a, 'b> Stack<'a, 'b> {
             pdf: 0.0,
             is_tinted: false,
             entered: 1.0,
-            counts: self.light.settings.lobes.sheen,
+            counts: self.light.context.settings.lobes.sheen,
             sum: DVec3::ZERO,
         };
         if !self.has_base {
-            // What passes by is lost: all paths stand for what does not.
+            // What passes through unscattered is lost: every path stands for what does not.
             let Some((depth, share)) = self.fibres.first_scattering(walker.along, rng) else {
                 return (DVec3::ZERO, None);
             };
@@ -179,7 +172,7 @@ impl<'a, 'b> Stack<'a, 'b> {
         }
     }
 
-    /// At a fibre.
+    /// Scatters at a fibre at `depth`.
     fn scatter(&self, walker: &mut Walker, depth: f64, sent: &[Sent], rng: &mut impl Rng) {
         walker.depth = depth;
         if !walker.is_tinted {
@@ -195,12 +188,13 @@ impl<'a, 'b> Stack<'a, 'b> {
         walker.along = out;
     }
 
-    /// At the base; false where the path ends.
+    /// Scatters at the base; false where the path ends.
     fn meet_base(&self, walker: &mut Walker, sent: &[Sent], rng: &mut impl Rng) -> bool {
         let back = -walker.along;
         let frame = AzimuthFrame::of(back);
-        let wanted = self.light.settings.lobes;
-        let lobes = Lobes::bare(self.surface, &self.light.models, wanted, back.z.clamp(0.0, 1.0));
+        let context = self.light.context;
+        let wanted = context.settings.lobes;
+        let lobes = Lobes::bare(self.light.surface, &context.models, wanted, back.z.clamp(0.0, 1.0));
         if lobes.lobes.is_empty() {
             return false;
         }
@@ -217,21 +211,21 @@ impl<'a, 'b> Stack<'a, 'b> {
         walker.pdf > 0.0
     }
 
-    /// By the top: what the direction meets of the lights and the environment.
+    /// Leaves by the top, and meets the lights and the environment that lie in its direction.
     fn leave(&self, mut walker: Walker, on: bool, rays: &mut u64) -> (DVec3, Onward) {
+        let (light, surface) = (self.light, self.light.surface);
         let wo = walker.along;
-        if !walker.counts || self.surface.up.dot(wo) <= 0.0 {
+        if !walker.counts || surface.up.dot(wo) <= 0.0 {
             return (walker.sum, None);
         }
         let pdf = walker.pdf * self.fibres.passing(walker.depth, wo);
-        for lit in self.chooser.along(wo) {
-            let weight = pdf / (self.chooser.density(&lit) + pdf);
-            walker.sum += walker.throughput * lit.radiance * weight * self.light.visible(self.surface, &lit, rays);
+        for lit in light.chooser.along(wo) {
+            let weight = pdf / (light.chooser.density(&lit) + pdf);
+            walker.sum += walker.throughput * lit.radiance * weight * light.visible(&lit, rays);
         }
-        if self.light.settings.ambient != glam::Vec3::ZERO {
-            walker.sum += walker.throughput * self.light.environment(self.surface, wo, rays);
+        if light.context.settings.ambient != Vec3::ZERO {
+            walker.sum += walker.throughput * light.environment(wo, rays);
         }
-        let ray = shadow_ray(self.surface.origin, self.surface.world_from_local, wo);
-        (walker.sum, on.then_some((ray, walker.throughput)))
+        (walker.sum, on.then_some((surface.ray(wo), walker.throughput)))
     }
 }

@@ -3,15 +3,16 @@
 use glam::{DMat3, DVec3};
 
 use super::world::{Hit, World};
-use crate::reference::bvh::Ray;
+use crate::bvh::Ray;
 use crate::scene::{Layering, Settings, SheenModel, TextureSlot};
 
 /// A point of a surface as it is seen from one direction, factors and textures multiplied.
 pub(super) struct Surface {
     pub p_world: DVec3,
-    /// Where rays start.
+    /// Where rays from it start.
     pub origin: DVec3,
-    /// Columns x, y, z: z is the shading normal on the view's side of the surface, x lies towards the view's projection.
+    /// Columns x, y, z: z is the shading normal on the view's side of the surface, x lies towards the view's
+    /// projection.
     pub world_from_local: DMat3,
     /// The direction to the view in that frame, y = 0; on the horizon where the shading normal turns away from it.
     pub wi: DVec3,
@@ -34,7 +35,7 @@ pub(super) struct Surface {
 /// The layer of fibres at a point.
 #[derive(Clone, Copy)]
 pub(super) struct SheenAt {
-    /// `C_sheen`, weighted.
+    /// `C_sheen` times the weight.
     pub color: DVec3,
     pub weight: f64,
     pub alpha: f64,
@@ -43,6 +44,11 @@ pub(super) struct SheenAt {
 }
 
 impl SheenAt {
+    /// Whether light is followed through the fibres themselves, by a random walk.
+    pub fn is_walked(&self) -> bool {
+        self.model == SheenModel::Walk || self.layering == Layering::Walk
+    }
+
     /// `C_sheen` where the layer is.
     pub fn tint(&self) -> DVec3 {
         if self.weight > 0.0 { self.color / self.weight } else { DVec3::ZERO }
@@ -50,11 +56,6 @@ impl SheenAt {
 }
 
 impl Surface {
-    /// The view's cosine to the shading normal, in \[0, 1\].
-    pub fn mu(&self) -> f64 {
-        self.wi.z.min(1.0)
-    }
-
     pub fn new(world: &World, settings: &Settings, ray: &Ray, hit: &Hit) -> Self {
         let material = world.material(hit);
         let index = world.material_index(hit);
@@ -94,6 +95,16 @@ impl Surface {
             unlit: material.unlit,
             occlusion,
         }
+    }
+
+    /// The view's cosine to the shading normal, in \[0, 1\].
+    pub fn mu(&self) -> f64 {
+        self.wi.z.min(1.0)
+    }
+
+    /// The ray from the surface in a direction of its frame.
+    pub fn ray(&self, wo: DVec3) -> Ray {
+        Ray { origin: self.origin, direction: (self.world_from_local * wo).normalize() }
     }
 }
 

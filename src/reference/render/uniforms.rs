@@ -14,14 +14,14 @@ pub(super) struct Uniforms {
 }
 
 impl Uniforms {
-    /// Of the sample `index`, below 2^16, of a batch: batches are scrambled each on its own.
+    /// Of the sample `index`, below 2^16, of a batch; each batch is scrambled on its own.
     pub fn new(seed: u64, pixel: u64, batch: u64, index: u32) -> Self {
         Self { seed: mixed(mixed(mixed(seed) ^ pixel) ^ batch), index, set: 0 }
     }
 
     /// Four numbers in \[0, 1).
     pub fn next(&mut self) -> [f64; 4] {
-        // Past the sequence's dimensions others take their place, scrambled anew.
+        // Past its last dimension the sequence starts over, scrambled anew.
         let (round, set) = (self.set / NUM_DIMENSION_SETS_4D, self.set % NUM_DIMENSION_SETS_4D);
         self.set += 1;
         sample_4d(self.index, set, mixed(self.seed ^ u64::from(round)) as u32).map(f64::from)
@@ -32,6 +32,13 @@ impl Uniforms {
         self.set += 1;
         Pcg64::seed_from_u64(mixed(self.seed ^ (u64::from(self.index) << 32 | u64::from(self.set))))
     }
+}
+
+/// One sample of a pixel: its numbers, and what it has cost.
+pub(super) struct Sample {
+    pub uniforms: Uniforms,
+    /// Rays that have been followed for it.
+    pub rays: u64,
 }
 
 /// A bijection of 64 bits in which each bit depends on all (Steele, Lea and Flood 2014: SplitMix's finaliser).

@@ -5,10 +5,9 @@ use std::ops::ControlFlow;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::ReferenceError;
+use super::error::ReferenceError;
 use super::texels::texel;
-use super::triangle::Triangle;
-use crate::reference::bvh::{Bvh, Meeting, Ray};
+use crate::bvh::{Bvh, Meeting, Ray, Triangle};
 use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
 
 /// Most triangles of all instances together: some 120 bytes each.

@@ -1,7 +1,9 @@
-//! Rays against many things: a bounding volume hierarchy of `f32` boxes around things that are met in `f64`.
+//! Rays against many things: a bounding volume hierarchy, over a scene's triangles or over anything else that has
+//! bounds.
 //!
-//! Boxes are those of the scene scaled into a cube of twice `SPAN`, each padded by what `f32` may have rounded away, so that no thing is
-//! lost: the hierarchy says where to look, the things themselves say what is met.
+//! The boxes are `f32`, what they hold is intersected in `f64`. They are scaled into a cube of side twice `SPAN`, and
+//! each is padded by what `f32` may have rounded away, so that nothing is missed: the hierarchy says where to look, the
+//! primitives say what is met.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -13,22 +15,28 @@ use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// Half the scene in the tree's units: the tree passes over boxes that a ray leaves within 1e-4 of where it starts.
+/// Half the scene's size in the tree's units: the tree passes over boxes that a ray leaves within 1e-4 of where it
+/// starts.
 const SPAN: f64 = (1 << 20) as f64;
-/// Room around boxes: sixteen roundings of a coordinate, and those of a ray that is a few times as long as the scene.
+/// Padding of a box: sixteen roundings of a coordinate, and those of a ray that is a few times as long as the scene.
 const PADDING: f32 = 2e-6 * SPAN as f32;
-/// Room behind a hit in which boxes are still looked into, as a share of its distance and in half scenes.
+/// How far behind a hit boxes are still looked into: this share of its distance, and of half the scene's size.
 const BEHIND: f64 = 1e-5;
+
+/// How far outside an edge, in weights of its corners, a ray still meets a triangle: neighbours leave no gap.
+const EDGE: f64 = 1e-12;
 
 /// A half line.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
+    /// Where it starts.
     pub origin: DVec3,
     /// Unit.
     pub direction: DVec3,
 }
 
 impl Ray {
+    /// The point at this distance from the origin.
     pub fn at(&self, distance: f64) -> DVec3 {
         self.origin + distance * self.direction
     }
@@ -42,16 +50,19 @@ pub trait Primitive {
     /// Least and greatest corner of a box around it.
     fn bounds(&self) -> [DVec3; 2];
 
-    /// The distance along the ray at which it is met, and where; of several the caller's affair.
+    /// The distance along the ray at which it is met, negative behind the origin, and the place; none where the ray
+    /// misses it. Of several meetings the primitive chooses one.
     fn meet(&self, ray: &Ray) -> Option<(f64, Self::Place)>;
 }
 
 /// A primitive that is met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting<T> {
+    /// Along the ray.
     pub distance: f64,
-    /// Of the primitive, as [`Bvh::primitives`] counts.
+    /// Of the primitive, in [`Bvh::primitives`].
     pub index: usize,
+    /// On the primitive.
     pub place: T,
 }
 
@@ -62,7 +73,7 @@ pub struct Bvh<P> {
     /// In the tree's order.
     primitives: Vec<P>,
     center: DVec3,
-    /// The tree's unit: of half the greatest side of the box around all, one of [`SPAN`].
+    /// The tree's unit: half the greatest side of the box around everything, over [`SPAN`].
     scale: f64,
 }
 
@@ -75,7 +86,7 @@ impl Boundable for Boxed {
 }
 
 impl<P: Primitive> Bvh<P> {
-    /// Over primitives whose bounds are finite; what is not is left out. Their order changes.
+    /// A hierarchy over these primitives, in another order; those whose bounds are not finite are left out.
     pub fn new(primitives: Vec<P>) -> Self {
         let bounded: Vec<(P, [DVec3; 2])> = primitives
             .into_iter()
@@ -104,12 +115,12 @@ impl<P: Primitive> Bvh<P> {
         Self { tree, primitives, center, scale }
     }
 
-    /// In the order in which meetings count them.
+    /// The primitives, in the order of [`Meeting::index`].
     pub fn primitives(&self) -> &[P] {
         &self.primitives
     }
 
-    /// The nearest primitive met between two distances of those that `accept` takes.
+    /// The nearest of the meetings between two distances that `accept` takes.
     pub fn nearest(
         &self,
         ray: &Ray,
@@ -132,7 +143,8 @@ impl<P: Primitive> Bvh<P> {
         nearest
     }
 
-    /// Visits primitives between two distances, in any order, until told to stop: gives what stopped it.
+    /// Visits the meetings between two distances, in any order, until `visit` breaks off: gives the value that it broke
+    /// off with.
     pub fn visit<B>(
         &self,
         ray: &Ray,
@@ -155,7 +167,8 @@ impl<P: Primitive> Bvh<P> {
         stopped
     }
 
-    /// The ray in the tree's scale from where it enters a sphere around all, and the distance to there; none where it misses.
+    /// The ray in the tree's units, from where it enters a sphere around everything, and the distance to there; none
+    /// where it misses.
     fn unit_ray(&self, ray: &Ray, far: f64) -> Option<(f64, obvhs::ray::Ray)> {
         // The cube lies in a sphere of sqrt(3) times half its side.
         const RADIUS_SQUARE: f64 = 3.0001 * SPAN * SPAN;
@@ -172,14 +185,71 @@ impl<P: Primitive> Bvh<P> {
         }
         let entry = Vec3A::from((origin + start * ray.direction).as_vec3());
         let start = start * self.scale;
-        // Added, a zero loses its sign: the tree takes -0 for a direction that goes down.
+        // Adding zero turns -0 into 0: the tree takes -0 for a direction that goes down.
         let direction = Vec3A::from(ray.direction.as_vec3()) + Vec3A::ZERO;
         Some((start, obvhs::ray::Ray::new(entry, direction, 0.0, self.shortened(far - start))))
     }
 
-    /// A length in the tree's scale, and some.
+    /// A length in the tree's units, and some more.
     fn shortened(&self, length: f64) -> f32 {
         ((length / self.scale).abs() * (1.0 + BEHIND) + BEHIND * SPAN) as f32
+    }
+}
+
+/// A triangle of a scene's instance, in the world.
+#[derive(Clone, Debug)]
+pub struct Triangle {
+    corner: DVec3,
+    /// From the first corner to the second and to the third.
+    edges: [DVec3; 2],
+    /// Index into [`Scene::instances`](crate::scene::Scene::instances).
+    pub instance: u32,
+    /// Which of its mesh's triangles.
+    pub index: u32,
+}
+
+impl Triangle {
+    /// Triangle `index` of an instance's mesh, by its corners in the world.
+    pub fn new([a, b, c]: [DVec3; 3], instance: u32, index: u32) -> Self {
+        Self { corner: a, edges: [b - a, c - a], instance, index }
+    }
+
+    /// The face's normal by winding, times twice the area.
+    pub fn face(&self) -> DVec3 {
+        self.edges[0].cross(self.edges[1])
+    }
+}
+
+impl Primitive for Triangle {
+    /// Weights of the second and the third corner.
+    type Place = [f64; 2];
+
+    fn bounds(&self) -> [DVec3; 2] {
+        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
+        [corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2])]
+    }
+
+    /// Möller and Trumbore 1997.
+    #[inline]
+    fn meet(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
+        let [first, second] = self.edges;
+        let across = ray.direction.cross(second);
+        let slope = first.dot(across);
+        if slope == 0.0 {
+            return None;
+        }
+        let inverse = 1.0 / slope;
+        let to_origin = ray.origin - self.corner;
+        let u = to_origin.dot(across) * inverse;
+        if !(-EDGE..=1.0 + EDGE).contains(&u) {
+            return None;
+        }
+        let over = to_origin.cross(first);
+        let v = ray.direction.dot(over) * inverse;
+        if v < -EDGE || u + v > 1.0 + EDGE {
+            return None;
+        }
+        Some((second.dot(over) * inverse, [u, v]))
     }
 }
 
@@ -220,7 +290,8 @@ mod tests {
         (0..count).map(ball).collect()
     }
 
-    /// Rays towards balls, at random and along the axes (with zeros of either sign), from far away and from a hair before them.
+    /// Rays towards balls, at random and along the axes (with zeros of either sign), from far away and from a hair in
+    /// front of them.
     fn rays(balls: &[Ball], scale: f64) -> Vec<Ray> {
         let mut rng = Pcg64::seed_from_u64(6);
         let ray = |k: usize| {
@@ -254,7 +325,7 @@ mod tests {
                 expected.sort_by(f64::total_cmp);
                 let nearest = bvh.nearest(&ray, range, |_| true).map(|met| met.distance);
                 assert_eq!(nearest, expected.first().copied(), "{ray:?}");
-                // Of those that are taken.
+                // The nearest of those that are accepted.
                 let second = bvh.nearest(&ray, range, |met| Some(met.distance) != nearest).map(|met| met.distance);
                 assert_eq!(second, expected.get(1).copied(), "{ray:?}");
                 let mut visited = Vec::new();
@@ -283,5 +354,26 @@ mod tests {
         assert_eq!(one.nearest(&ray, [0.0, 1e9], |_| true).map(|met| met.distance), Some(2.0));
         let broken = Bvh::new(vec![Ball { center: DVec3::NAN, radius: 1.0 }]);
         assert!(broken.primitives().is_empty() && broken.nearest(&ray, [0.0, 1e9], |_| true).is_none());
+    }
+
+    /// Rays through the edge that two triangles share meet one of them, at the place that its weights give.
+    #[test]
+    fn neighbouring_triangles_leave_no_gap() {
+        let mut rng = Pcg64::seed_from_u64(7);
+        for _ in 0..2000 {
+            let [a, b, c, d] = std::array::from_fn(|_| unit_sphere(&mut rng));
+            let on_edge = a.lerp(b, uniform(&mut rng));
+            let direction = unit_sphere(&mut rng);
+            let ray = Ray { origin: on_edge - 3.0 * direction, direction };
+            let corners = [[a, b, c], [b, a, d]];
+            let met = |corners: [DVec3; 3]| {
+                let (distance, [u, v]) = Triangle::new(corners, 0, 0).meet(&ray)?;
+                let by_weights = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+                assert!((ray.at(distance) - by_weights).length() < 1e-9, "{corners:?}");
+                Some(distance)
+            };
+            let distances: Vec<f64> = corners.into_iter().filter_map(met).collect();
+            assert!(distances.iter().any(|distance| (distance - 3.0).abs() < 1e-9), "{corners:?} {ray:?}");
+        }
     }
 }

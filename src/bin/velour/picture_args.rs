@@ -1,16 +1,15 @@
-//! The flags of `velour render` and `velour reference`, and their ranges.
+//! The flags that all ways of rendering share, and their ranges.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use velour::picture::ToneCurve;
-use velour::reference;
 use velour::scene::{Layering, Lobes, RoughnessMap, SheenModel};
 
 use crate::overrides::{self, Assignment};
 
-/// The flags that all ways of rendering share.
+/// What to draw, of which scene, and where to.
 #[derive(Args)]
 pub struct PictureArgs {
     /// glTF 2.0 scene, .glb or .gltf
@@ -30,19 +29,20 @@ pub struct PictureArgs {
     /// Gives every material a sheen of this colour, linear Rec. 709, each in [0,1]
     #[arg(long, value_name = "R,G,B", value_parser = overrides::color, allow_hyphen_values = true)]
     pub sheen_color: Option<Vec3>,
-    /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering; repeatable
+    /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering;
+    /// repeatable
     #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
     pub set: Vec<Assignment>,
-    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through the fibres
-    /// themselves, whatever the model, and the base (with `velour reference` only) [default: gltf]
+    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through the
+    /// fibres themselves, whatever the model, and the base (with `velour reference` only) [default: gltf]
     #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = overrides::layering)]
     pub layering: Option<Layering>,
     /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]
     #[arg(long, value_name = "identity|square|sqrt", value_parser = overrides::roughness_map)]
     pub roughness_map: Option<RoughnessMap>,
-    /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path by path (both
-    /// with `velour reference` only); or a model of earlier work, to compare with: in real time it is summed over 128 points on each polygon
-    /// light [default: ltc]
+    /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path
+    /// by path (both with `velour reference` only); or a model of earlier work, to compare with: in real time it is
+    /// summed over 128 points on each polygon light [default: ltc]
     #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = overrides::sheen_model)]
     pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds
@@ -68,59 +68,6 @@ pub struct PictureArgs {
     pub json: bool,
 }
 
-#[derive(Args)]
-pub struct Render {
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel; with 1 each pixel is the value at its centre
-    #[arg(long, default_value = "4", value_name = "1|4", value_parser = samples)]
-    pub msaa: u32,
-    /// Part of an adapter's name, as `velour info` lists them
-    #[arg(long, value_name = "NAME-PART")]
-    pub adapter: Option<String>,
-}
-
-/// The flags of `velour reference` beside those.
-#[derive(Args)]
-pub struct Reference {
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel
-    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
-    pub spp: u32,
-    /// Another seed gives other noise; the same one the same picture, on any number of threads
-    #[arg(long, default_value_t = 0, value_name = "N", allow_negative_numbers = true)]
-    pub seed: u64,
-    /// Surfaces that light meets between a light and the one that is seen; 0 is direct light, at most 1000
-    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
-    pub max_bounces: u32,
-    /// Surfaces stand in each other's light
-    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
-    pub shadows: Switch,
-    /// Samples lie all over the pixel, or at its centre as with `velour render --msaa 1`
-    #[arg(long, default_value = "box", value_enum, value_name = "box|centre")]
-    pub filter: Filter,
-    /// The lobe of the specular base: the transformed cosine of real time, or GGX microfacets themselves
-    #[arg(long, default_value = "ltc", value_enum, value_name = "ltc|ggx")]
-    pub specular_model: SpecularModel,
-    /// Each pixel's standard error of radiance, as a picture
-    #[arg(long, value_name = "OUT.exr")]
-    pub errors: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum Filter {
-    Box,
-    #[value(alias = "center")]
-    Centre,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum SpecularModel {
-    Ltc,
-    Ggx,
-}
-
 #[derive(Clone, Copy, ValueEnum, PartialEq)]
 pub enum Switch {
     On,
@@ -144,23 +91,6 @@ impl From<Tonemap> for ToneCurve {
     }
 }
 
-impl Reference {
-    pub fn options(&self) -> reference::Options {
-        reference::Options {
-            max_bounces: self.max_bounces,
-            shadows: self.shadows == Switch::On,
-            filter: match self.filter {
-                Filter::Box => reference::Filter::Box,
-                Filter::Centre => reference::Filter::Centre,
-            },
-            specular: match self.specular_model {
-                SpecularModel::Ltc => reference::SpecularModel::Ltc,
-                SpecularModel::Ggx => reference::SpecularModel::Ggx,
-            },
-        }
-    }
-}
-
 fn size(text: &str) -> Result<[u32; 2], String> {
     let parse = |side: &str| side.parse::<u32>().ok().filter(|side| *side > 0);
     let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some([parse(width)?, parse(height)?]));
@@ -175,14 +105,6 @@ fn radiance(text: &str) -> Result<Vec3, String> {
 /// Past 100 stops either way a float has nothing left to show.
 fn exposure(text: &str) -> Result<f32, String> {
     overrides::number(text).filter(|value| value.abs() <= 100.0).ok_or_else(|| "give a number in [-100,100]".to_owned())
-}
-
-fn samples(text: &str) -> Result<u32, String> {
-    match text {
-        "1" => Ok(1),
-        "4" => Ok(4),
-        _ => Err("give 1 or 4".to_owned()),
-    }
 }
 
 fn lobes(text: &str) -> Result<Lobes, String> {

@@ -1,0 +1,70 @@
+//! `velour view`: the window; and what stands in for it where there is no display.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use velour::picture::{check_writable, write_atomically};
+use velour::renderer::Offscreen;
+use velour::renderer::device::{self, DeviceError};
+use velour::scene::assets::DRAPE;
+use velour::scene::{Scene, Settings, gltf};
+use velour::table::SheenTable;
+
+use crate::console::{complain, say};
+use crate::failure::Failure;
+use crate::{render, without_device};
+
+/// The flags of `velour view`.
+#[derive(Args)]
+pub struct View {
+    /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]
+    pub scene: Option<PathBuf>,
+}
+
+pub fn run(arguments: &View) -> Result<(), Failure> {
+    let scene = match &arguments.scene {
+        Some(path) => gltf::load(path).map_err(Failure::input)?,
+        None => DRAPE.load().map_err(Failure::input)?,
+    };
+    let name = arguments.scene.as_ref().map_or(DRAPE.name.into(), |path| path.display().to_string());
+    let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
+    let event_loop = velour::viewer::event_loop().map_err(no_display)?;
+    scene.notices.iter().for_each(complain);
+    velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
+}
+
+/// The viewer on the default scene; without a display, the picture that it would show.
+pub fn run_or_render_default() -> Result<(), Failure> {
+    let scene = DRAPE.load().map_err(Failure::input)?;
+    match velour::viewer::event_loop() {
+        Ok(event_loop) => {
+            velour::viewer::run(event_loop, DRAPE.name, scene, SheenTable::embedded()).map_err(Failure::device)
+        }
+        Err(no_display) => {
+            let output = Path::new("velour.png");
+            render_default(&scene, output)?;
+            say(format!("{no_display}: the default scene is rendered to {}", output.display()));
+            Ok(())
+        }
+    }
+}
+
+/// What `velour render` makes of the scene when no flag is given.
+fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
+    const SIZE: [u32; 2] = [1280, 720];
+    check_writable(output).map_err(Failure::input)?;
+    let (camera, settings) = (&scene.cameras[0], Settings::default());
+    let picture = match pollster::block_on(device::open_offscreen(None)) {
+        Err(DeviceError::NoAdapter) => {
+            without_device::plain(scene, &settings, SIZE)?.display(settings.exposure, Default::default())
+        }
+        gpu => {
+            let gpu = gpu.map_err(Failure::device)?;
+            let renderer = Offscreen::for_display(&gpu, 4, &SheenTable::embedded(), scene, &settings);
+            let mut renderer = renderer.map_err(render::failure)?;
+            let picture = gpu.block_on(renderer.display(&gpu, camera, SIZE, &settings, Default::default()));
+            picture.map_err(render::failure)?
+        }
+    };
+    write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
+}
