@@ -11,7 +11,7 @@
 //! | [`math`] | quadrature, sampling warps, frames: `f64`, no domain knowledge | |
 //! | [`table`] | the tables of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
 //! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk; GGX microfacets | |
-//! | [`fit`] | lobe to LTC, r between the nodes, the error report | |
+//! | [`fit`] | lobe to table: the sheen's, the specular base's, the slab's, each with its report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; path tracing | path tracing: `gpu` or `cli` |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |

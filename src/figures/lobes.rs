@@ -5,7 +5,7 @@ use super::polar::{self, Panel, Words};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::physics::walk::{Counts, FirstFlight, Histogram, Walk};
-use crate::table::{SheenLtc, SheenTable};
+use crate::table::{Ltc, SheenTable};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
@@ -91,7 +91,7 @@ pub fn lobes(table: &SheenTable, step: impl Fn()) -> Figure {
 fn panel(table: &SheenTable, transport: &Transport, [alpha, mu]: [f64; 2], seed: u64) -> Panel {
     let wi = in_plane(mu.acos());
     let [a, b, r] = table.lookup(alpha, mu);
-    let ltc = SheenLtc { a, b };
+    let ltc = Ltc::sheen(a, b);
     let albedo = transport.albedo(mu);
     let paths = if albedo < DIM { DIM_PATHS } else { PATHS };
     let walk = Walk { slab: *transport.slab(), mu, first_flight: FirstFlight::Scattered, paths, seed };

@@ -14,10 +14,11 @@
 //! A .csv holds one line a node, in order of roughness; a .dds holds two textures one above the other, x = roughness, y = t: first the
 //! texels u, v, s, 1, below them albedo, fresnel, 0, 1.
 
+use super::TableError;
 use super::csv::Columns;
 use super::dds::{self, Texture};
 use super::grid::{self, Grid};
-use super::{Ltc, TableError};
+use super::ltc::Ltc;
 use crate::math::sine;
 use std::path::Path;
 
@@ -35,6 +36,11 @@ const GREATEST: f64 = 16.0;
 
 /// Halves differ more finely near 0 than the fit is known: smaller differences do not count.
 const NEGLIGIBLE: f64 = 1e-5;
+
+/// The cosine at t = sqrt(1 - mu).
+pub fn cosine(t: f64) -> f64 {
+    1.0 - t * t
+}
 
 /// The lobe of a rough mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]

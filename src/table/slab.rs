@@ -21,7 +21,8 @@
 //! the alpha of the lookup itself, not for that of a node. Linear between the nodes, whose values are fitted for it. Two modes leave
 //! 0.3% of a lobe (relative L2), three 0.05%.
 
-use super::{TableError, cell, half_steps};
+use super::TableError;
+use super::grid::{cell, half_steps};
 use crate::math::{check_cosine, cube_root};
 use half::f16;
 use std::fmt;
