@@ -1,6 +1,6 @@
 //! How far the table is from the solution, over (alpha, mu).
 
-use super::Figure;
+use super::canvas::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
 use crate::fit::lobe::Lobes;

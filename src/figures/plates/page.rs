@@ -1,7 +1,7 @@
 //! The page that shows all figures.
 
 use super::spheres::{ALPHA, ALPHAS, ANGLES, LAYER_ALPHAS};
-use crate::figures::Figure;
+use crate::figures::canvas::Figure;
 
 /// Width at which pictures stand in the page, in its pixels.
 const WIDE: u32 = 420;
