@@ -19,6 +19,7 @@
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
 //! | `viewer` | a window with orbit and panel | `viewer` |
+//! | `file` | a file appears whole or not at all | `cli` or `viewer` |
 //!
 //! # Example
 //!
@@ -59,6 +60,8 @@
 
 #[cfg(feature = "cli")]
 pub mod figures;
+#[cfg(any(feature = "cli", feature = "viewer"))]
+pub mod file;
 pub mod fit;
 pub mod math;
 pub mod models;

@@ -7,7 +7,7 @@ use wgpu::{CurrentSurfaceTexture, TextureView};
 
 use super::ViewerError;
 use super::state::{Change, State};
-use crate::picture::write_atomically;
+use crate::file::write_atomically;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::SheenTable;
 

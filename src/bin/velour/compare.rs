@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use serde_json::json;
-use velour::picture::{Differences, FlipMap, Format, Picture, check_writable, write_atomically};
+use velour::file::{check_writable, write_atomically};
+use velour::picture::{Differences, FlipMap, Format, Picture};
 
 use crate::args::Compare;
 use crate::output::{is_same_file, with_progress};

@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use serde_json::json;
-use velour::picture::{Format, write_atomically};
+use velour::file::write_atomically;
+use velour::picture::Format;
 use velour::renderer::device::{self, DeviceError, Gpu};
 use velour::renderer::{Offscreen, RenderError};
 use velour::scene::Scene;
@@ -16,7 +17,7 @@ use crate::{Failure, reference, say};
 #[cfg(feature = "viewer")]
 use {
     crate::complain,
-    velour::picture::check_writable,
+    velour::file::check_writable,
     velour::scene::{Settings, gltf},
 };
 

@@ -3,8 +3,8 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
+use velour::file::write_atomically;
 use velour::fit;
-use velour::picture::write_atomically;
 use velour::table::{GgxTable, SheenTable, SlabTable, TableError};
 
 use crate::args::{Fit, Table};

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::time::Instant;
 
-use velour::picture::{Format, LinearImage, WriteError, check_writable};
+use velour::file::check_writable;
+use velour::picture::{Format, FormatError, LinearImage};
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::SheenTable;
 
@@ -88,7 +89,7 @@ pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
 }
 
 /// A linear picture's file, in memory.
-pub fn encoded(picture: &LinearImage, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, WriteError> {
+pub fn encoded(picture: &LinearImage, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, FormatError> {
     match format {
         Format::Png => picture.display(arguments.exposure, arguments.tonemap.into()).to_png(),
         Format::Exr => picture.to_exr(),

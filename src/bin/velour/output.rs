@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use velour::picture::check_writable;
+use velour::file::check_writable;
 
 use crate::Failure;
 

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use serde_json::json;
-use velour::picture::{Format, check_writable, write_atomically};
+use velour::file::{check_writable, write_atomically};
+use velour::picture::Format;
 use velour::reference::{Effort, Options, Picture, Reference as Renderer, ReferenceError};
 
 use crate::inputs::{Inputs, Timing, check_apart, encoded};
