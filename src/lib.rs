@@ -18,8 +18,8 @@
 //! | `picture` | a linear image; .png and .exr in and out, tone curves; how two pictures differ, FLIP with `cli` | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
-//! | `viewer` | a window with orbit and panel | `viewer` |
-//! | `file` | a file appears whole or not at all | `cli` or `viewer` |
+//! | `viewer` | a window with orbit and panel | `window` |
+//! | `file` | a file appears whole or not at all | `cli` or `window` |
 //!
 //! # Example
 //!
@@ -60,7 +60,7 @@
 
 #[cfg(feature = "cli")]
 pub mod figures;
-#[cfg(any(feature = "cli", feature = "viewer"))]
+#[cfg(any(feature = "cli", feature = "window"))]
 pub mod file;
 pub mod fit;
 pub mod math;
@@ -74,5 +74,5 @@ pub mod renderer;
 #[cfg(feature = "scenes")]
 pub mod scene;
 pub mod table;
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub mod viewer;

@@ -26,7 +26,7 @@ pub struct Arguments {
 #[derive(Subcommand)]
 pub enum Command {
     /// Opens a scene in a window: drag to orbit, right drag or shift drag to pan, wheel to zoom
-    #[cfg(feature = "viewer")]
+    #[cfg(feature = "window")]
     View(View),
     /// Renders a scene to a picture
     #[cfg(feature = "gpu")]
@@ -56,7 +56,7 @@ pub enum Command {
     Info,
 }
 
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 #[derive(Args)]
 pub struct View {
     /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]

@@ -1,6 +1,6 @@
 //! What each command does, step by step. What can fail comes before anything is written or said.
 
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 use std::path::Path;
 
 use serde_json::json;
@@ -14,7 +14,7 @@ use velour::table::{GgxTable, SLAB_SIDE, SheenTable, SlabTable};
 use crate::inputs::{Inputs, Timing};
 use crate::render_args::Render;
 use crate::{Failure, reference, say};
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 use {
     crate::complain,
     velour::file::check_writable,
@@ -22,7 +22,7 @@ use {
 };
 
 /// The scene that is shown when none is named, embedded so that the program runs from any folder.
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 const DEFAULT_SCENE: (&str, &[u8]) = ("drape.glb", include_bytes!("../../../assets/drape.glb"));
 
 pub fn render(arguments: &Render) -> Result<(), Failure> {
@@ -99,7 +99,7 @@ fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
     say(figures);
 }
 
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
     let scene = match &arguments.scene {
         Some(path) => gltf::load(path).map_err(Failure::input)?,
@@ -113,7 +113,7 @@ pub fn view(arguments: &crate::args::View) -> Result<(), Failure> {
 }
 
 /// The viewer on the default scene; without a display, the picture that it would show.
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub fn view_or_render_default() -> Result<(), Failure> {
     let scene = default_scene()?;
     match velour::viewer::event_loop() {
@@ -130,7 +130,7 @@ pub fn view_or_render_default() -> Result<(), Failure> {
 }
 
 /// What `velour render` makes of the scene when no flag is given.
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SIZE: [u32; 2] = [1280, 720];
     check_writable(output).map_err(Failure::input)?;
@@ -150,7 +150,7 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
 }
 
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 fn default_scene() -> Result<Scene, Failure> {
     gltf::from_slice(DEFAULT_SCENE.1, DEFAULT_SCENE.0).map_err(Failure::input)
 }

@@ -51,11 +51,11 @@ fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let done = match arguments.command {
-        #[cfg(feature = "viewer")]
+        #[cfg(feature = "window")]
         None => draw::view_or_render_default(),
-        #[cfg(not(feature = "viewer"))]
+        #[cfg(not(feature = "window"))]
         None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
-        #[cfg(feature = "viewer")]
+        #[cfg(feature = "window")]
         Some(Command::View(view)) => draw::view(&view),
         #[cfg(feature = "gpu")]
         Some(Command::Render(render)) => draw::render(&render),

@@ -172,7 +172,7 @@ pub fn in_place_of_a_device(arguments: &Render, inputs: &Inputs, mut timing: Tim
 const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
 
 /// The same of a scene as it is.
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
     let renderer = Renderer::new(scene, settings, &SheenTable::embedded(), options).map_err(failure)?;
