@@ -69,8 +69,8 @@ fn walks(criterion: &mut Criterion) {
 fn tables(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("fit");
     group.sample_size(10).measurement_time(Duration::from_secs(20));
-    group.bench_function("sheen", |bencher| bencher.iter(|| fit::sheen(fit::RESOLUTION, |_, _| ())));
-    group.bench_function("slab", |bencher| bencher.iter(|| fit::slab::slab(|_, _| ())));
+    group.bench_function("sheen", |bencher| bencher.iter(|| fit::sheen::fit(fit::RESOLUTION, |_, _| ())));
+    group.bench_function("slab", |bencher| bencher.iter(|| fit::slab::fit(|_, _| ())));
 }
 
 criterion_group!(benches, solver, walks, tables);

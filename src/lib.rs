@@ -11,7 +11,7 @@
 //! | [`math`] | quadrature, sampling warps, frames: `f64`, no domain knowledge | |
 //! | [`table`] | the tables of lobes, and in 3D the slab's: lookup, .csv and .dds in and out | |
 //! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk; GGX microfacets | |
-//! | [`fit`] | lobe to LTC, r between the nodes, the error report | |
+//! | [`fit`] | lobe to table: the sheen's, the specular base's, the slab's, each with its report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
 //! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; path tracing | path tracing: `gpu` or `cli` |
 //! | `scene` | camera, material, light, mesh, settings; glTF in | `gpu` or `cli` |
@@ -19,7 +19,8 @@
 //! | `bvh` | the hierarchy over a scene's triangles, for rays | `gpu` or `cli` |
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
-//! | `viewer` | a window with orbit and panel | `viewer` |
+//! | `viewer` | a window with orbit and panel | `window` |
+//! | `file` | a file appears whole or not at all | `cli` or `window` |
 //!
 //! # Example
 //!
@@ -62,6 +63,8 @@
 pub mod bvh;
 #[cfg(feature = "cli")]
 pub mod figures;
+#[cfg(any(feature = "cli", feature = "window"))]
+pub mod file;
 pub mod fit;
 pub mod math;
 pub mod models;
@@ -74,5 +77,5 @@ pub mod renderer;
 #[cfg(feature = "scenes")]
 pub mod scene;
 pub mod table;
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub mod viewer;

@@ -25,6 +25,17 @@ const CHARACTER: f64 = 6.8;
 /// Between a caption and what is around it.
 const GAP: i32 = 10;
 
+/// A picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Its file's name.
+    pub name: &'static str,
+    /// Its file.
+    pub svg: String,
+    /// The text below it: what it shows, and with which settings.
+    pub caption: String,
+}
+
 /// A picture of `size` pixels as the text of an SVG file. plotters places everything on whole numbers, of which there
 /// are `units` to a pixel; the lengths that `draw` uses are in these units.
 pub fn svg(size: [i32; 2], units: i32, draw: impl FnOnce(&Area) -> Drawn) -> String {
@@ -83,6 +94,11 @@ pub fn caption(area: &Area, lines: &[String], [x, y]: [i32; 2], units: i32) -> D
 /// Writes a title centred on a point, in pixels of `units` each.
 pub fn title(area: &Area, line: &str, [x, y]: [i32; 2], units: i32) -> Drawn {
     area.draw_text(line, &text(TITLE * f64::from(units), BLACK, HPos::Center), (x * units, y * units))
+}
+
+/// A number to four decimals; a small one to three digits.
+pub fn digits(value: f64) -> String {
+    if value < 1e-3 { format!("{value:.2e}") } else { format!("{value:.4}") }
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! How far the table is from the solution, over (alpha, mu).
 
-use super::Figure;
+use super::canvas::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
 use crate::fit::lobe::Lobes;
 use crate::fit::{DIM, Errors};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::table::{SheenLtc, SheenTable, centres};
+use crate::table::{Ltc, SheenTable, centres};
 use rayon::prelude::*;
 
 pub const NAMES: [&str; 2] = ["error_lobe.svg", "error_r.svg"];
@@ -58,7 +58,7 @@ fn lobe_error(table: &SheenTable, lobes: &Lobes, alpha: f64, mu: f64) -> Option<
     }
     let (shape, hemisphere) = (lobes.shape(mu), &lobes.hemisphere);
     let [a, b, r] = table.lookup(alpha, mu);
-    let ltc = SheenLtc { a, b };
+    let ltc = Ltc::sheen(a, b);
     let off = |node: usize| r / albedo * ltc.density(hemisphere.nodes[node]) - shape[node];
     let square = hemisphere.integral(|node| off(node).powi(2));
     Some((square / hemisphere.integral(|node| shape[node].powi(2))).sqrt())
@@ -100,7 +100,7 @@ fn figure(table: &SheenTable, name: &'static str, title: &str, about: &str, fiel
 mod tests {
     use super::super::parsed::Parsed;
     use super::*;
-    use crate::fit::least_squares::{self, Free};
+    use crate::fit::sheen::least_squares::{self, Free};
 
     const ALPHA: f64 = 0.6;
     const MU: f64 = 0.4;
@@ -115,11 +115,11 @@ mod tests {
         let lobes = Lobes::new(Transport::new(Slab::new(ALPHA), Resolution::default()));
         let albedo = lobes.transport.albedo(MU);
         let shape = lobes.shape(MU);
-        let SheenLtc { a, b } = least_squares::fit(&shape, &lobes.hemisphere, SheenLtc { a: 0.5, b: 0.0 }, Free::Both);
+        let Ltc { a, b, .. } = least_squares::fit(&shape, &lobes.hemisphere, Ltc::sheen(0.5, 0.0), Free::Both);
         let error = |cell| lobe_error(&constant(cell), &lobes, ALPHA, MU).expect("R is above DIM");
         let best = error([a, b, albedo]);
         let norm = lobes.hemisphere.integral(|node| shape[node].powi(2));
-        let fitted = least_squares::squared_error(&shape, &lobes.hemisphere, SheenLtc { a, b });
+        let fitted = least_squares::squared_error(&shape, &lobes.hemisphere, Ltc::sheen(a, b));
         assert!((best - (fitted / norm).sqrt()).abs() < 1e-12, "{best}");
         assert!(best > 0.01 && best < 0.2, "{best}");
         for worse in [[a * 1.1, b, albedo], [a, b - 0.1, albedo], [a, b, albedo * 1.3], [a, b, albedo * 0.7]] {

@@ -13,6 +13,7 @@ mod color;
 mod errors;
 pub mod fibres;
 mod field;
+mod incidence;
 mod lobes;
 #[cfg(test)]
 mod parsed;
@@ -20,23 +21,13 @@ mod planes;
 pub mod plates;
 mod polar;
 
+pub use canvas::Figure;
 pub use errors::errors;
 pub use lobes::lobes;
 pub use planes::table_planes;
 
 use crate::table::SheenTable;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A picture.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// Its file's name.
-    pub name: &'static str,
-    /// Its file.
-    pub svg: String,
-    /// The text below it: what it shows, and with which settings.
-    pub caption: String,
-}
 
 /// Names of the figures that [`all`] makes, in order.
 pub const NAMES: [&str; 6] =

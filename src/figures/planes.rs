@@ -1,6 +1,6 @@
 //! The table's three planes.
 
-use super::Figure;
+use super::canvas::Figure;
 use super::color::Scale;
 use super::field::{Field, Labels, draw};
 use crate::table::SheenTable;

@@ -1,7 +1,7 @@
 //! Half discs of elevations, side by side.
 
 use super::canvas::{self, Area, CAPTION, Drawn, FAINT, GREY, LABEL};
-use super::lobes::{Curve, Pool};
+use super::incidence::{Curve, Pool};
 use plotters::element::{Circle, DashedPathElement, PathElement, Polygon};
 use plotters::style::text_anchor::HPos;
 use plotters::style::{BLACK, Color, RGBColor, ShapeStyle};

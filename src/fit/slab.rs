@@ -5,9 +5,9 @@
 //! nodes to points, and G the values at pairs of points, the nodes hold P G P^T, which leaves half the error that the
 //! solution at the nodes would. In alpha, values are those at the nodes.
 
+use super::errors::{DIM, Errors};
 use super::lobe::Lobes;
 use super::nodes;
-use super::report::{DIM, Errors};
 use crate::math::sine;
 use crate::physics::modes::Elevation;
 use crate::physics::slab::Slab;
@@ -40,7 +40,7 @@ const REPORT_LEAST_ALPHA: f64 = 1.0 / 31.0;
 /// How good the slab's table is, with single scattering added: relative errors between its nodes where R > 1e-3 and
 /// alpha >= 1/31.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SlabReport {
+pub struct Report {
     /// Relative L2 error of the lobe f_r mu_o over the hemisphere.
     pub lobe: Errors,
     /// Relative error of its integral against R.
@@ -52,7 +52,7 @@ pub struct SlabReport {
 /// Solves the slab at all alphas of the table; the result is the same on any number of threads.
 ///
 /// `progress` is called with the numbers of steps (done, all), from any of the working threads.
-pub fn slab(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, SlabReport) {
+pub fn fit(progress: impl Fn(usize, usize) + Sync) -> (SlabTable, Report) {
     let (done, all) = (AtomicUsize::new(0), SLAB_SIDE + REPORT_ALPHAS);
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
     let solve = |k: usize| {
@@ -99,7 +99,7 @@ fn stored(solution: &Transport, mu_i: f64, mu_o: f64) -> [f64; 3] {
     [rho_0.max(0.0).ln_1p(), rho_1 / across, rho_2 / (across * across)]
 }
 
-fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
+fn report(table: &SlabTable, step: impl Fn() + Sync) -> Report {
     // From the first cell whose middle is not below the least alpha to the last one, evenly spread; in the middles of
     // cells.
     let first = (0..SLAB_SIDE).find(|k| slab_alpha(*k as f64 + 0.5) >= REPORT_LEAST_ALPHA).unwrap_or_default();
@@ -115,7 +115,7 @@ fn report(table: &SlabTable, step: impl Fn() + Sync) -> SlabReport {
         .collect();
     let errors = errors.concat();
     let [lobe, albedo] = [0, 1].map(|which| Errors::new(errors.iter().map(|error| error[which]).collect()));
-    SlabReport { lobe, albedo, cells: errors.len() }
+    Report { lobe, albedo, cells: errors.len() }
 }
 
 /// Relative errors of lobe and R at one alpha, for the bright ones of [`REPORT_MUS`] cosines.
@@ -144,7 +144,7 @@ fn errors(table: &SlabTable, alpha: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-impl fmt::Display for SlabReport {
+impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { lobe, albedo, cells } = self;
         write!(

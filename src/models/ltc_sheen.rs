@@ -3,7 +3,7 @@
 use super::{Bsdf, Sample, check_alpha, check_uniforms, cosine};
 use crate::math::check_cosine;
 use crate::math::frame::AzimuthFrame;
-use crate::table::{SheenLtc, SheenTable, cell, node};
+use crate::table::{Ltc, SheenTable, cell, node};
 use glam::DVec3;
 
 /// The sheen as a linearly transformed cosine, with the table's numbers at one alpha (Zeltner, Burley, Chiang 2022, eq. 1).
@@ -26,15 +26,15 @@ impl LtcSheen {
     }
 
     /// The lobe at a cosine, and its albedo.
-    fn lobe(&self, mu: f64) -> (SheenLtc, f64) {
+    fn lobe(&self, mu: f64) -> (Ltc, f64) {
         let (below, t) = cell(mu, self.nodes.len());
         let [low, high] = [self.nodes[below], self.nodes[below + 1]];
         let between = |k: usize| (1.0 - t) * low[k] + t * high[k];
-        (SheenLtc { a: between(0), b: between(1) }, between(2))
+        (Ltc::sheen(between(0), between(1)), between(2))
     }
 
     /// The lobe of `wi`, its albedo, and `wo` in its frame, unless one is below the horizon or nothing is scattered.
-    fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(SheenLtc, f64, DVec3)> {
+    fn meeting(&self, wi: DVec3, wo: DVec3) -> Option<(Ltc, f64, DVec3)> {
         let (mu_i, mu_o) = (cosine(wi), cosine(wo));
         if mu_i < 0.0 || mu_o <= 0.0 {
             return None;

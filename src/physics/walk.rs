@@ -71,7 +71,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// All paths.
+    /// The number of all paths.
     pub fn paths(&self) -> u64 {
         self.unscattered + self.transmitted() + self.reflected()
     }

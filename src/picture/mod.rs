@@ -2,16 +2,16 @@
 //! pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
 
 mod difference;
-mod file;
 #[cfg(feature = "cli")]
 mod flip;
+mod format;
 mod read;
 mod tone;
 
 pub use difference::{Differences, LargestDifference};
-pub use file::{Format, WriteError, check_writable, write_atomically};
 #[cfg(feature = "cli")]
 pub use flip::{Exposures, FlipMap};
+pub use format::{Format, FormatError};
 pub use read::{MAX_PIXELS, MAX_SIDE, Picture, ReadError};
 pub use tone::{ToneCurve, srgb_from_linear};
 
@@ -37,7 +37,7 @@ pub struct DisplayImage {
 
 impl LinearImage {
     /// The bytes of an OpenEXR file of 32-bit floats, channels R, G, B.
-    pub fn to_exr(&self) -> Result<Vec<u8>, WriteError> {
+    pub fn to_exr(&self) -> Result<Vec<u8>, FormatError> {
         encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb32F, Format::Exr)
     }
 
@@ -54,7 +54,7 @@ impl LinearImage {
 
 impl DisplayImage {
     /// The bytes of a PNG file.
-    pub fn to_png(&self) -> Result<Vec<u8>, WriteError> {
+    pub fn to_png(&self) -> Result<Vec<u8>, FormatError> {
         encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb8, Format::Png)
     }
 
@@ -72,14 +72,14 @@ fn encode(
     bytes: &[u8],
     color: image::ColorType,
     format: Format,
-) -> Result<Vec<u8>, WriteError> {
+) -> Result<Vec<u8>, FormatError> {
     let mut out = Cursor::new(Vec::new());
     let image_format = match format {
         Format::Png => image::ImageFormat::Png,
         Format::Exr => image::ImageFormat::OpenExr,
     };
     image::write_buffer_with_format(&mut out, bytes, width, height, color, image_format)
-        .map_err(|source| WriteError::Encode { format, source })?;
+        .map_err(|source| FormatError::Encode { format, source })?;
     Ok(out.into_inner())
 }
 

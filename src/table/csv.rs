@@ -1,8 +1,11 @@
 //! Tables as text.
 
-use super::grid::Grid;
-use super::{MAX_SIDE, NODE_TOLERANCE, TableError, node};
+use super::TableError;
+use super::grid::{Grid, MAX_SIDE, node};
 use std::fmt::Write;
+
+/// How far the places of a file's rows on both axes may be from the nodes.
+const NODE_TOLERANCE: f64 = 1e-4;
 
 /// What each line of a table holds: the node's place on both axes, and its numbers.
 pub(super) struct Columns<const N: usize> {

@@ -1,7 +1,7 @@
 //! Tables as textures.
 
-use super::grid::Grid;
-use super::{MAX_SIDE, TableError};
+use super::TableError;
+use super::grid::{Grid, MAX_SIDE};
 use ddsfile::{AlphaMode, Caps2, D3D10ResourceDimension, Dds, DxgiFormat, FourCC, MiscFlag, NewDxgiParams};
 use half::f16;
 

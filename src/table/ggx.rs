@@ -15,10 +15,11 @@
 //! A .csv holds one line for each node, in order of roughness; a .dds holds two textures one above the other,
 //! x = roughness, y = t: at the top the texels u, v, s, 1, below them albedo, fresnel, 0, 1.
 
+use super::TableError;
 use super::csv::Columns;
 use super::dds::{self, Texture};
 use super::grid::{self, Grid};
-use super::{Ltc, TableError};
+use super::ltc::Ltc;
 use crate::math::sine;
 use std::path::Path;
 
@@ -36,6 +37,11 @@ const GREATEST: f64 = 16.0;
 
 /// Largest difference that does not count: near 0, halves are finer than the fit is known.
 const NEGLIGIBLE: f64 = 1e-5;
+
+/// The cosine mu at t = sqrt(1 - mu).
+pub fn cosine(t: f64) -> f64 {
+    1.0 - t * t
+}
 
 /// The lobe of a rough mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]

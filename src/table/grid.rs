@@ -1,7 +1,10 @@
 //! Numbers over a grid of nodes in the unit square.
 
-use super::{MAX_SIDE, cell, half_steps};
 use half::f16;
+
+/// Most nodes that a side of a table may have. A shipped table has 32; the million cells of the largest are more than
+/// any lobe needs.
+pub const MAX_SIDE: usize = 1024;
 
 /// N numbers at each node.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,4 +69,32 @@ pub(super) fn checksum(texels: &[[f32; 4]]) -> u32 {
         hasher.update(&value.to_le_bytes());
     }
     hasher.finalize()
+}
+
+/// Where node `k` of `n` >= 2 sits, in \[0, 1\].
+pub fn node(k: usize, n: usize) -> f64 {
+    k as f64 / (n - 1) as f64
+}
+
+/// The cell between two of `n` nodes in which `x` in \[0, 1\] lies, and how far it is from the lower one, in cells.
+#[inline]
+pub fn cell(x: f64, n: usize) -> (usize, f64) {
+    let x = x * (n - 1) as f64;
+    let below = (x as usize).min(n - 2);
+    (below, x - below as f64)
+}
+
+/// The centres of `n` equal cells of \[0, 1\].
+pub fn centres(n: usize) -> Vec<f64> {
+    (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect()
+}
+
+/// How many half-floats lie from `one` to `other`.
+pub(super) fn half_steps(one: f16, other: f16) -> u32 {
+    // Without the sign, a half's bits ascend with its magnitude.
+    let place = |value: f16| {
+        let bits = i32::from(value.to_bits());
+        if bits & 0x8000 == 0 { bits } else { 0x8000 - bits }
+    };
+    place(one).abs_diff(place(other))
 }

@@ -4,43 +4,7 @@ use crate::math::warp::cosine_hemisphere;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// The sheen's inverse matrix, whose rows are (a, 0, b), (0, a, 0), (0, 0, 1).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheenLtc {
-    /// Scale along the surface, >= 0.
-    pub a: f64,
-    /// Shear along x, of either sign.
-    pub b: f64,
-}
-
-impl SheenLtc {
-    /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
-    ///
-    /// D(v) |det M^-1| / |v|^3 with v = M^-1 wo and D the cosine's density z/pi on the unit sphere, thus
-    /// a^2 z / (pi |v|^4).
-    pub fn density(&self, wo: DVec3) -> f64 {
-        self.density_and_slopes(wo).0
-    }
-
-    /// A direction of that density from two uniform numbers in \[0, 1). Panics unless `a` is above 0.
-    pub fn sample(&self, uniforms: [f64; 2]) -> DVec3 {
-        Ltc { a: self.a, b: self.b, c: self.a }.sample(uniforms)
-    }
-
-    /// The density and its derivatives by ln(a) and by b.
-    pub fn density_and_slopes(&self, wo: DVec3) -> (f64, [f64; 2]) {
-        let Self { a, b } = *self;
-        let (x, y, z) = (a * wo.x + b * wo.z, a * wo.y, wo.z);
-        let square = x * x + y * y + z * z;
-        let density = a * a * z.max(0.0) / (PI * square * square);
-        // The derivatives of ln(square) by ln(a) and by b.
-        let by_ln_a = 2.0 * a * (x * wo.x + y * wo.y) / square;
-        let by_b = 2.0 * x * wo.z / square;
-        (density, [density * (2.0 - 2.0 * by_ln_a), density * -2.0 * by_b])
-    }
-}
-
-/// An inverse matrix whose rows are (a, 0, b), (0, c, 0), (0, 0, 1), for lobes whose length and width differ.
+/// The inverse matrix (a, 0, b), (0, c, 0), (0, 0, 1), by rows. The diffuse lobe's is the identity, the sheen's has c = a.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ltc {
     /// Scale along x, > 0.
@@ -52,9 +16,15 @@ pub struct Ltc {
 }
 
 impl Ltc {
+    /// The sheen's matrix, of the table's columns a and b: c = a.
+    pub const fn sheen(a: f64, b: f64) -> Self {
+        Self { a, b, c: a }
+    }
+
     /// The transformed cosine's density at the unit vector `wo`, per steradian: its integral over the upper hemisphere is 1.
     ///
-    /// a c z / (pi |v|^4) with v = M^-1 wo, as for [`SheenLtc::density`].
+    /// D(v) |det M^-1| / |v|^3 with v = M^-1 wo and D the cosine's density z/pi on the unit sphere, thus
+    /// a c z / (pi |v|^4).
     #[inline]
     pub fn density(&self, wo: DVec3) -> f64 {
         let (x, y, z) = (self.a * wo.x + self.b * wo.z, self.c * wo.y, wo.z);

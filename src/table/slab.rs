@@ -22,7 +22,8 @@
 //! Lookups are linear between the nodes, whose values are fitted for that. Two modes leave out 0.3% of a lobe
 //! (relative L2), three 0.05%.
 
-use super::{TableError, cell, half_steps};
+use super::TableError;
+use super::grid::{cell, half_steps};
 use crate::math::{check_cosine, cube_root};
 use half::f16;
 use std::fmt;

@@ -1,6 +1,7 @@
 //! The slab's table as a volume.
 
-use super::{SLAB_SIDE, SlabTable, TableError};
+use super::TableError;
+use super::slab::{SLAB_SIDE, SlabTable};
 use ddsfile::{AlphaMode, Caps2, D3D10ResourceDimension, Dds, DxgiFormat, MiscFlag, NewDxgiParams};
 use half::f16;
 

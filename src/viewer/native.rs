@@ -4,7 +4,8 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::picture::{DisplayImage, write_atomically};
+use crate::file::write_atomically;
+use crate::picture::DisplayImage;
 use crate::renderer::Gpu;
 
 /// A point in time.

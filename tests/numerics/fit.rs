@@ -1,21 +1,21 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use velour::fit::albedo::{self, Albedos};
 use velour::fit::hemisphere::Hemisphere;
-use velour::fit::least_squares::{Free, LEAST_A, fit, squared_error};
 use velour::fit::lobe::Lobes;
 use velour::fit::sheen;
+use velour::fit::sheen::albedo::{self, Albedos};
+use velour::fit::sheen::least_squares::{Free, LEAST_A, density_and_slopes, fit, squared_error};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
-use velour::table::{SheenLtc, SheenTable};
+use velour::table::{Ltc, SheenTable};
 
-const SOME: [SheenLtc; 5] = [
-    SheenLtc { a: 1.0, b: 0.0 },
-    SheenLtc { a: 0.5, b: -0.2 },
-    SheenLtc { a: 0.1, b: -0.15 },
-    SheenLtc { a: 0.02, b: -0.1 },
-    SheenLtc { a: 0.004, b: -0.04 },
+const SOME: [Ltc; 5] = [
+    Ltc::sheen(1.0, 0.0),
+    Ltc::sheen(0.5, -0.2),
+    Ltc::sheen(0.1, -0.15),
+    Ltc::sheen(0.02, -0.1),
+    Ltc::sheen(0.004, -0.04),
 ];
 
 fn lobes(alpha: f64) -> Lobes {
@@ -40,16 +40,16 @@ fn density_integrates_to_one() {
 #[test]
 fn density_is_the_cosines_at_the_identity() {
     let wo = DVec3::new(0.48, 0.6, 0.64);
-    assert!((SheenLtc { a: 1.0, b: 0.0 }.density(wo) - 0.64 / std::f64::consts::PI).abs() < 1e-15);
+    assert!((Ltc::sheen(1.0, 0.0).density(wo) - 0.64 / std::f64::consts::PI).abs() < 1e-15);
 }
 
 #[test]
 fn slopes_are_the_densitys() {
     let wo = DVec3::new(0.48, 0.6, 0.64);
     let step = 1e-5;
-    for SheenLtc { a, b } in SOME {
-        let at = |ln_a: f64, b: f64| SheenLtc { a: ln_a.exp(), b }.density(wo);
-        let (density, slopes) = SheenLtc { a, b }.density_and_slopes(wo);
+    for Ltc { a, b, .. } in SOME {
+        let at = |ln_a: f64, b: f64| Ltc::sheen(ln_a.exp(), b).density(wo);
+        let (density, slopes) = density_and_slopes(Ltc::sheen(a, b), wo);
         let by_ln_a = (at(a.ln() + step, b) - at(a.ln() - step, b)) / (2.0 * step);
         let by_b = (at(a.ln(), b + step) - at(a.ln(), b - step)) / (2.0 * step);
         for (slope, difference) in slopes.into_iter().zip([by_ln_a, by_b]) {
@@ -64,7 +64,7 @@ fn a_transformed_cosine_is_fitted_by_itself() {
     let hemisphere = hemisphere();
     for truth in SOME {
         let shape: Vec<f64> = hemisphere.nodes.iter().map(|&wo| truth.density(wo)).collect();
-        let start = SheenLtc { a: truth.a * 1.5, b: truth.b - 0.1 };
+        let start = Ltc::sheen(truth.a * 1.5, truth.b - 0.1);
         let found = fit(&shape, &hemisphere, start, Free::Both);
         assert!((found.a / truth.a - 1.0).abs() < 1e-6 && (found.b - truth.b).abs() < 1e-6, "{truth:?}: {found:?}");
     }
@@ -73,9 +73,9 @@ fn a_transformed_cosine_is_fitted_by_itself() {
 #[test]
 fn fitted_b_is_not_above_0() {
     let hemisphere = hemisphere();
-    let leaning_away = SheenLtc { a: 0.5, b: 0.2 };
+    let leaning_away = Ltc::sheen(0.5, 0.2);
     let shape: Vec<f64> = hemisphere.nodes.iter().map(|&wo| leaning_away.density(wo)).collect();
-    let found = fit(&shape, &hemisphere, SheenLtc { a: 1.0, b: -0.1 }, Free::Both);
+    let found = fit(&shape, &hemisphere, Ltc::sheen(1.0, -0.1), Free::Both);
     assert_eq!(found.b, 0.0);
     assert!(found.a > LEAST_A);
 }
@@ -101,13 +101,13 @@ fn a_fit_is_the_minimum_from_wherever_it_starts() {
         let lobes = lobes(alpha);
         let shape = lobes.shape(mu);
         let error = |ltc| squared_error(&shape, &lobes.hemisphere, ltc);
-        let found = fit(&shape, &lobes.hemisphere, SheenLtc { a: alpha, b: -0.01 }, Free::Both);
+        let found = fit(&shape, &lobes.hemisphere, Ltc::sheen(alpha, -0.01), Free::Both);
         for (a, b) in [(1.01, 0.0), (0.99, 0.0), (1.0, 0.003), (1.0, -0.003)] {
-            let near = SheenLtc { a: found.a * a, b: (found.b + b).min(0.0) };
+            let near = Ltc::sheen(found.a * a, (found.b + b).min(0.0));
             assert!(near == found || error(near) > error(found), "alpha {alpha}, mu {mu}: {near:?} beats {found:?}");
         }
         for (a, b) in starts {
-            let other = fit(&shape, &lobes.hemisphere, SheenLtc { a, b }, Free::Both);
+            let other = fit(&shape, &lobes.hemisphere, Ltc::sheen(a, b), Free::Both);
             let better = error(found) - error(other);
             assert!(better < 1e-9 * error(found), "alpha {alpha}, mu {mu}: {other:?} from {a}, {b} beats {found:?}");
         }
@@ -152,7 +152,7 @@ fn r_is_better_between_the_nodes_than_the_albedo_at_them() {
 #[test]
 fn small_fit_obeys_the_conventions() {
     let (calls, most, all_steps) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicUsize::new(0));
-    let (table, report) = sheen(5, |done, all| {
+    let (table, report) = sheen::fit(5, |done, all| {
         calls.fetch_add(1, Ordering::Relaxed);
         most.fetch_max(done, Ordering::Relaxed);
         all_steps.store(all, Ordering::Relaxed);
@@ -176,7 +176,7 @@ fn small_fit_obeys_the_conventions() {
 fn a_fit_is_the_same_on_any_number_of_threads() {
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads");
-        pool.install(|| sheen(4, |_, _| ()))
+        pool.install(|| sheen::fit(4, |_, _| ()))
     });
     assert_eq!(one, three);
 }

@@ -201,7 +201,7 @@ fn the_transformed_cosine_is_the_tables() {
     for (alpha, mu) in CELLS {
         let [a, b, r] = table.lookup(alpha, mu);
         let (model, wo) = (ltc(alpha), direction(0.3, 0.7));
-        let value = r * velour::table::SheenLtc { a, b }.density(wo);
+        let value = r * velour::table::Ltc::sheen(a, b).density(wo);
         let found = model.evaluate(direction(mu, 0.0), wo);
         assert!((found / value - 1.0).abs() < 1e-12, "alpha {alpha}, mu {mu}: {found}, {value}");
         assert!((model.albedo(mu) - r).abs() < 1e-15);

@@ -3,10 +3,12 @@
 use glam::DVec3;
 use half::f16;
 use rayon::prelude::*;
-use velour::fit::ggx::{QUADRATURE, RESOLUTION, albedo, cosine, distance, fit, ggx};
+use velour::fit::RESOLUTION;
+use velour::fit::ggx;
+use velour::fit::ggx::row::{QUADRATURE, albedo, distance, fit};
 use velour::math::sine;
 use velour::physics::microfacet::{Ggx, LEAST_ALPHA};
-use velour::table::ggx::GRAZING_MU;
+use velour::table::ggx::{GRAZING_MU, cosine};
 use velour::table::{GgxTable, Ltc, centres, node};
 
 /// L1 distance between the lobe at `mu` over its albedo and what is looked up.
@@ -17,7 +19,7 @@ fn error(table: &GgxTable, roughness: f64, mu: f64) -> f64 {
 
 #[test]
 fn the_table_is_what_the_code_makes() {
-    let (table, report) = ggx(RESOLUTION, |_, _| ());
+    let (table, report) = ggx::fit(RESOLUTION, |_, _| ());
     let shipped = GgxTable::embedded();
     assert!(shipped.half_steps(&table).is_some_and(|steps| steps <= 1), "velour fit makes another table");
     let text = include_str!("../../tables/ggx_ltc.csv");

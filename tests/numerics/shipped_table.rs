@@ -1,12 +1,13 @@
 //! The table in `tables/`.
 
-use velour::fit::least_squares::{Free, LEAST_A, fit, squared_error};
 use velour::fit::lobe::Lobes;
-use velour::fit::{DIM, Errors, GRAZING_MU, sheen};
+use velour::fit::sheen::least_squares::{Free, LEAST_A, fit, squared_error};
+use velour::fit::sheen::{self, GRAZING_MU};
+use velour::fit::{DIM, Errors};
 use velour::physics::slab::Slab;
 use velour::physics::transport::{Resolution, Transport};
 use velour::physics::walk::{FirstFlight, Walk};
-use velour::table::{SheenLtc, SheenTable};
+use velour::table::{Ltc, SheenTable};
 
 use crate::statistics::assert_within;
 
@@ -108,7 +109,7 @@ fn a_node_out_of_line_is_told() {
 
 #[test]
 fn the_table_is_what_the_code_makes() {
-    let (table, report) = sheen(NODES, |_, _| ());
+    let (table, report) = sheen::fit(NODES, |_, _| ());
     let shipped = SheenTable::embedded();
     // On one machine all bits are the same; others round matrix products differently, but hardly in the header's four
     // digits.
@@ -169,13 +170,13 @@ fn matrices_are_the_best_for_their_lobes() {
         let mu = (j as f64 / 31.0).max(GRAZING_MU);
         let shape = lobes.shape(mu);
         let [a, b, _] = table.cell(i, j);
-        let shipped = SheenLtc { a, b };
+        let shipped = Ltc::sheen(a, b);
         let free = if mu == 1.0 { Free::OnlyA } else { Free::Both };
         let error = |ltc| squared_error(&shape, &lobes.hemisphere, ltc);
-        let start = SheenLtc { a: 0.3, b: if mu == 1.0 { 0.0 } else { -0.05 } };
+        let start = Ltc::sheen(0.3, if mu == 1.0 { 0.0 } else { -0.05 });
         let least = error(fit(&shape, &lobes.hemisphere, start, free));
         assert!(error(shipped) < least * (1.0 + 1e-6), "node ({i}, {j}): {shipped:?} is not the best");
-        let wrong = SheenLtc { a: a * 1.02, b };
+        let wrong = Ltc::sheen(a * 1.02, b);
         assert!(error(wrong) > least * (1.0 + 1e-6), "node ({i}, {j}): {wrong:?} passes");
     }
 }

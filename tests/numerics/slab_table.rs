@@ -3,7 +3,7 @@
 use half::f16;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use velour::fit::slab::{layer, slab};
+use velour::fit::slab::{self, layer};
 use velour::table::{LEAST_SLAB_ALPHA, MAX_FILE_BYTES, SLAB_SIDE, SheenTable, SlabTable, SlabWarp, slab_alpha};
 
 const HEADER_BYTES: usize = 148;
@@ -23,7 +23,7 @@ fn the_shipped_table_is_what_the_code_makes() {
     let (calls, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a pool of threads");
     let (made, report) = pool.install(|| {
-        slab(|done, all| {
+        slab::fit(|done, all| {
             assert_eq!(all, SLAB_SIDE + 12);
             calls.fetch_add(1, Ordering::Relaxed);
             most.fetch_max(done, Ordering::Relaxed);

@@ -8,7 +8,7 @@ use crate::fit::Fit;
 use crate::reference::Reference;
 #[cfg(feature = "gpu")]
 use crate::render::Render;
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 use crate::view::View;
 
 /// Real-time sheen for fuzzy and dusty surfaces under polygonal area lights.
@@ -27,7 +27,7 @@ pub struct Arguments {
 #[derive(Subcommand)]
 pub enum Command {
     /// Opens a scene in a window: drag to orbit, right drag or shift drag to pan, wheel to zoom
-    #[cfg(feature = "viewer")]
+    #[cfg(feature = "window")]
     View(View),
     /// Renders a scene to a picture
     #[cfg(feature = "gpu")]

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
-use velour::picture::{Differences, FlipMap, Format, Picture, check_writable, write_atomically};
+use velour::file::{check_writable, write_atomically};
+use velour::picture::{Differences, FlipMap, Format, Picture};
 
 use crate::console::say;
 use crate::failure::Failure;

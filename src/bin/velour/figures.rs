@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use velour::figures::{self, Figure, plates};
-use velour::picture::write_atomically;
+use velour::file::write_atomically;
 use velour::table::SheenTable;
 
 use crate::console::say;

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use velour::file::write_atomically;
 use velour::fit;
-use velour::picture::write_atomically;
 use velour::table::{GgxTable, SheenTable, SlabTable, TableError};
 
 use crate::console::say;
@@ -58,18 +58,18 @@ pub fn run(arguments: &Fit) -> Result<(), Failure> {
     let mut wrong = Vec::new();
     if let Some(files) = sheen {
         let resolution = arguments.resolution.map_or(fit::RESOLUTION, usize::from);
-        let (table, report) = with_progress("sheen", |step| fit::sheen(resolution, step));
+        let (table, report) = with_progress("sheen", |step| fit::sheen::fit(resolution, step));
         wrong.extend(files.check(|found| found.half_steps(&table)));
         let csv = || table.to_csv(&report.header()).into_bytes();
         files.write(arguments, &[&csv, &|| table.to_dds()], &report)?;
     }
     if let Some(files) = slab {
-        let (table, report) = with_progress("slab", |step| fit::slab::slab(step));
+        let (table, report) = with_progress("slab", |step| fit::slab::fit(step));
         wrong.extend(files.check(|found| Some(found.half_steps(&table))));
         files.write(arguments, &[&|| table.to_dds()], &report)?;
     }
     if let Some(files) = ggx {
-        let (table, report) = with_progress("ggx", |step| fit::ggx::ggx(fit::ggx::RESOLUTION, step));
+        let (table, report) = with_progress("ggx", |step| fit::ggx::fit(fit::RESOLUTION, step));
         wrong.extend(files.check(|found| found.half_steps(&table)));
         let csv = || table.to_csv(&report.header()).into_bytes();
         files.write(arguments, &[&csv, &|| table.to_dds()], &report)?;

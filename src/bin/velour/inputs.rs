@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use velour::picture::{Format, check_writable};
+use velour::file::check_writable;
+use velour::picture::Format;
 use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
 use velour::table::SheenTable;
 

@@ -21,7 +21,7 @@ mod reference;
 #[cfg(feature = "gpu")]
 mod render;
 mod timing;
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 mod view;
 #[cfg(feature = "gpu")]
 mod without_device;
@@ -31,7 +31,7 @@ use std::process::ExitCode;
 use args::{Arguments, Command};
 use clap::Parser;
 use console::complain;
-#[cfg(not(feature = "viewer"))]
+#[cfg(not(feature = "window"))]
 use failure::Failure;
 
 fn main() -> ExitCode {
@@ -41,11 +41,11 @@ fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let done = match arguments.command {
-        #[cfg(feature = "viewer")]
+        #[cfg(feature = "window")]
         None => view::run_or_render_default(),
-        #[cfg(not(feature = "viewer"))]
+        #[cfg(not(feature = "window"))]
         None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
-        #[cfg(feature = "viewer")]
+        #[cfg(feature = "window")]
         Some(Command::View(view)) => view::run(&view),
         #[cfg(feature = "gpu")]
         Some(Command::Render(render)) => render::run(&render),

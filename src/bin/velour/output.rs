@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use velour::picture::check_writable;
+use velour::file::check_writable;
 
 use crate::failure::Failure;
 

@@ -5,7 +5,8 @@ use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use velour::picture::{Format, WriteError, check_writable, write_atomically};
+use velour::file::{check_writable, write_atomically};
+use velour::picture::{Format, FormatError};
 use velour::reference::{self, Effort, Options, Picture, ReferenceError};
 
 use crate::console::{complain, say};
@@ -148,7 +149,7 @@ pub fn render(
 }
 
 /// The picture's file, in memory.
-fn encoded(picture: &Picture, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, WriteError> {
+fn encoded(picture: &Picture, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, FormatError> {
     match format {
         Format::Png => picture.radiance.display(arguments.exposure, arguments.tonemap.into()).to_png(),
         Format::Exr => picture.radiance.to_exr(),

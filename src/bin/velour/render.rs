@@ -2,7 +2,8 @@
 
 use clap::Args;
 use serde_json::json;
-use velour::picture::{Format, write_atomically};
+use velour::file::write_atomically;
+use velour::picture::Format;
 use velour::renderer::device::{self, DeviceError, Gpu};
 use velour::renderer::{Offscreen, RenderError};
 use velour::scene::{Layering, Scene, Settings};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use velour::picture::{check_writable, write_atomically};
+use velour::file::{check_writable, write_atomically};
 use velour::renderer::Offscreen;
 use velour::renderer::device::{self, DeviceError};
 use velour::scene::assets::DRAPE;

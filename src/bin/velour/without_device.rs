@@ -1,7 +1,7 @@
 //! What is drawn where there is no graphics device: the reference's picture of what real time would show.
 
 use velour::reference::{Effort, Filter, Options, SpecularModel};
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 use {
     crate::progress::with_progress,
     velour::picture::LinearImage,
@@ -33,7 +33,7 @@ pub fn render(arguments: &PictureArgs, msaa: u32, inputs: &Inputs, mut timing: T
 }
 
 /// What the viewer shows of a scene, without shadows.
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
     let renderer = Reference::new(scene, settings, &SheenTable::embedded(), options).map_err(reference::failure)?;

@@ -1,17 +1,14 @@
 //! Lobes of explicit fibres beside the slab's.
 
-use super::super::Figure;
-use super::super::lobes::{Curve, FEWEST, curve, digits, in_plane, pools};
-use super::super::polar::{self, Panel, Words};
 use super::comparison::{COLUMNS, Comparison, ROWS};
 use super::goniometer::Goniometer;
 use super::patch::Patch;
 use super::planting::Planting;
-use crate::math::quadrature::gauss_legendre;
+use crate::figures::canvas::{Figure, digits};
+use crate::figures::incidence::{Curve, FEWEST, curve, in_plane, pools, sector, sector_mean};
+use crate::figures::polar::{self, Panel, Words};
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
-use crate::physics::walk::Histogram;
-use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -61,7 +58,7 @@ pub fn fibres_figure(step: impl Fn() + Sync) -> Figure {
          Fibres are mirrors of circular section, of the slab's density and directions, {LENGTH} long, of diameter {thin} (points) and {thick} (dashed) \
          where the layer is 1 thick; {FIBRES} in a patch that repeats itself, 2^{} paths a lobe, seeds 1 to {}, all orders, none cut short ({} were). \
          Fibres against slab where R > {DIM}, {}; lobes (relative L2) in {ROWS} x {COLUMNS} bins, the noise taken out, which was {:.3} on average.",
-        sector() * 180.0 / PI,
+        sector(SECTOR) * 180.0 / PI,
         PATHS.ilog2(),
         steps(),
         comparisons.iter().flatten().map(|comparison| comparison.measured.interrupted).sum::<u64>(),
@@ -112,20 +109,10 @@ fn panel(transport: &Transport, alpha: f64, mu: f64, cell: &[Comparison; 3]) -> 
             digits(error)
         ),
         wi: mu.acos(),
-        solved: curve(|wo| sector_mean(|wo| transport.reflected(wi, wo), wo)),
+        solved: curve(|wo| sector_mean(|wo| transport.reflected(wi, wo), wo, SECTOR)),
         fitted: dashed,
         counted: lobe(thin),
     }
-}
-
-fn sector() -> f64 {
-    Histogram::phi_range(SECTOR - 1)[1]
-}
-
-/// The mean of `lobe` over the sector on one side of `wo`, which is in the plane of incidence.
-fn sector_mean(lobe: impl Fn(DVec3) -> f64, wo: DVec3) -> f64 {
-    let nodes = gauss_legendre(4, 0.0, sector());
-    nodes.iter().map(|(phi, weight)| weight * lobe(DMat3::from_rotation_z(*phi) * wo)).sum::<f64>() / sector()
 }
 
 /// The cells that reflect enough light.

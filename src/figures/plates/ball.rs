@@ -1,7 +1,7 @@
 //! The sphere of explicit fibres under a window.
 
-use super::spheres::{EYE, YFOV};
-use super::{PlateError, Progress};
+use super::plate::{PlateError, Progress};
+use super::stage::{EYE, YFOV};
 use crate::figures::fibres::{Ball, Fate, Planting};
 use crate::math::warp::uniform;
 use crate::physics::walk::stream;

@@ -1,7 +1,7 @@
 //! The page that shows all figures.
 
 use super::spheres::{ALPHA, ALPHAS, ANGLES, LAYER_ALPHAS};
-use crate::figures::Figure;
+use crate::figures::canvas::Figure;
 
 /// Widths at which pictures are shown on the page, in its pixels.
 const WIDE: u32 = 420;

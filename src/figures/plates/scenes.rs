@@ -1,6 +1,6 @@
 //! Plates of the assets: the cloth and the dusty sculpture.
 
-use super::{Plate, Shot};
+use super::plate::{Plate, Progress, Shot};
 use crate::reference::Options;
 use crate::scene::assets::{DRAPE, DUST};
 use crate::scene::{Layering, Overrides, Scene, Settings};
@@ -21,7 +21,7 @@ pub fn plates() -> Vec<Plate> {
 /// The cloth with a sheen of this alpha, or without sheen.
 fn cloth(name: &str, alpha: Option<f32>) -> Plate {
     let says = alpha.map_or("no sheen".to_owned(), |alpha| format!("alpha {alpha}, C_sheen {COLOR}, layering gltf"));
-    let make = move |progress: &super::Progress| {
+    let make = move |progress: &Progress| {
         let scene = DRAPE.load()?;
         let velvet = named(&scene, "velvet");
         let overrides = Overrides {
@@ -43,7 +43,7 @@ fn cloth(name: &str, alpha: Option<f32>) -> Plate {
 /// Dust on the sculpture, as the asset has it.
 fn dust() -> Plate {
     const ALPHA: f32 = 0.85;
-    let make = |progress: &super::Progress| {
+    let make = |progress: &Progress| {
         let scene = DUST.load()?;
         let dusty = named(&scene, "dusty");
         let overrides = Overrides { alpha: Some(ALPHA), ..Overrides::default() };

@@ -1,7 +1,8 @@
 //! Plates of one sphere under one window.
 
 use super::ball::{self, Lit};
-use super::{Plate, Progress, Shot};
+use super::plate::{Plate, PlateError, Progress, Shot};
+use super::stage::{DISTANCE, EYE, HALF, RADIANCE, YFOV, window};
 use crate::picture::DisplayImage;
 use crate::reference::Options;
 use crate::scene::{
@@ -19,23 +20,6 @@ pub(super) const ALPHA: f32 = 0.5;
 pub(super) const ALPHAS: [f32; 6] = [0.1, 0.25, 0.4, 0.55, 0.75, 1.0];
 /// Roughnesses of the other comparisons.
 pub(super) const LAYER_ALPHAS: [f32; 3] = [0.25, 0.5, 1.0];
-
-/// The window's distance from the sphere's middle, its half side, and its radiance; the sphere's radius is 1.
-const DISTANCE: f32 = 4.0;
-const HALF: f32 = 1.2;
-const RADIANCE: f32 = 8.0;
-/// The camera's distance, and its vertical field of view in radians.
-pub(super) const EYE: f32 = 6.0;
-pub(super) const YFOV: f32 = 0.4;
-
-/// The window at an angle from the camera, which is at +z: its middle, and its two half sides. It is invisible, and
-/// hides nothing.
-pub(super) fn window(angle: f32) -> [Vec3; 3] {
-    let middle = DISTANCE * Vec3::new(angle.sin(), 0.0, angle.cos());
-    let back = -middle.normalize();
-    let right = Vec3::Y.cross(back).normalize();
-    [middle, HALF * right, HALF * back.cross(right)]
-}
 
 fn sphere() -> Mesh {
     const ROWS: u32 = 96;
@@ -154,7 +138,7 @@ fn fibres(degrees: f32) -> Plate {
     let mut settings = vec![("scene", says(degrees, Vec3::ZERO)), ("fibres", ball::says(ALPHA.into()))];
     settings.push(("size", format!("{SIDE}x{SIDE}")));
     settings.push(("samples", lit.samples.to_string()));
-    let make = move |progress: &Progress| -> Result<DisplayImage, super::PlateError> {
+    let make = move |progress: &Progress| -> Result<DisplayImage, PlateError> {
         ball::picture(ALPHA.into(), &lit, SIDE, progress)
     };
     Plate { name: format!("sphere_fibres_{degrees}"), settings, make: Box::new(make) }

@@ -62,7 +62,7 @@ impl Film {
 /// A rendered picture.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The mean of each pixel's samples.
+    /// Linear radiance: the mean of each pixel's samples.
     pub radiance: LinearImage,
     /// The standard error of each pixel and channel, estimated from its batches; not a number where there is one batch
     /// only.

@@ -1,48 +1,17 @@
-use std::fmt;
+//! Writing a file so that it appears whole or not at all.
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The kinds of picture files that are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    Png,
-    Exr,
-}
-
-impl Format {
-    /// By the file name's extension, case does not count.
-    pub fn of(path: &Path) -> Result<Self, WriteError> {
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        match extension.to_ascii_lowercase().as_str() {
-            "png" => Ok(Self::Png),
-            "exr" => Ok(Self::Exr),
-            _ => Err(WriteError::Extension { path: path.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Png => "PNG",
-            Self::Exr => "OpenEXR",
-        })
-    }
-}
-
-/// A picture or table could not be written.
+/// A file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
-    #[error("{}: the extension says what to write: use .png or .exr", path.display())]
-    Extension { path: PathBuf },
     #[error("{}: cannot be written ({source}): choose another place", path.display())]
     Path { path: PathBuf, source: std::io::Error },
     #[error("{}: its folder is not there: make it first", path.display())]
     NoFolder { path: PathBuf },
     #[error("{}: is a folder: give a file's name", path.display())]
     Folder { path: PathBuf },
-    #[error("the picture cannot be encoded as {format} ({source})")]
-    Encode { format: Format, source: image::ImageError },
 }
 
 /// Says whether `path` can be written, before the work is done: its folder exists and takes a new file, and it is no
@@ -102,15 +71,6 @@ mod tests {
             let said = check_writable(&path).unwrap_err().to_string();
             assert!(said.contains(&path.display().to_string()) && !said.contains('\n'), "{said}");
             assert!(write_atomically(&path, b"x").is_err());
-        }
-    }
-
-    #[test]
-    fn the_extension_names_the_format() {
-        assert_eq!(Format::of(Path::new("a/b.PNG")).unwrap(), Format::Png);
-        assert_eq!(Format::of(Path::new("b.exr")).unwrap(), Format::Exr);
-        for name in ["b.jpg", "b", "png", ".png"] {
-            assert!(Format::of(Path::new(name)).is_err(), "{name}");
         }
     }
 }

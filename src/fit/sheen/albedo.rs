@@ -15,7 +15,7 @@
 //!
 //! Solved by iteratively reweighted least squares, each step a few sweeps of projected Gauss-Seidel over the nodes.
 
-use super::report::DIM;
+use crate::fit::errors::DIM;
 use crate::physics::slab::Slab;
 use crate::physics::transport::{Resolution, Transport};
 use crate::table::centres;

@@ -1,9 +1,9 @@
 //! How good the specular base's table is.
 
-use super::Errors;
-use super::ggx::{Fit, QUADRATURE, albedo, cosine, distance};
+use super::row::{Fit, QUADRATURE, albedo, distance};
+use crate::fit::errors::Errors;
 use crate::physics::microfacet::{Ggx, LEAST_ALPHA};
-use crate::table::ggx::GRAZING_MU;
+use crate::table::ggx::{GRAZING_MU, cosine};
 use crate::table::{GgxTable, centres};
 use rayon::prelude::*;
 use std::fmt;
@@ -17,7 +17,7 @@ const COMPARED: usize = 8;
 /// Errors of a fitted table. Those of shapes are L1 distances between the lobe over its albedo and the density, at most
 /// 2.
 #[derive(Clone, Debug, PartialEq)]
-pub struct GgxReport {
+pub struct Report {
     /// Nodes a side.
     pub resolution: usize,
     /// Errors of the fit, at the nodes.
@@ -57,8 +57,8 @@ struct Lookup {
     fresnel: f64,
 }
 
-impl GgxReport {
-    /// `step` is called after each roughness, [`GgxReport::STEPS`] in all, from any of the working threads.
+impl Report {
+    /// `step` is told of each roughness that is seen, [`Report::STEPS`] in all, from any of the working threads.
     pub(super) fn new<'a>(table: &GgxTable, fits: impl Iterator<Item = &'a Fit>, step: impl Fn() + Sync) -> Self {
         let nodes = Shapes::new(fits.map(|fit| (fit.albedo, fit.distance)).collect());
         let resolution = table.size()[0];
@@ -145,7 +145,7 @@ fn lookups(table: &GgxTable, roughnesses: &[f64], mus: &[f64], step: impl Fn() +
     roughnesses.par_iter().map(row).collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
-impl fmt::Display for GgxReport {
+impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let [nodes, spread, albedo, fresnel, compared] = self.figures();
         write!(
