@@ -42,7 +42,7 @@ struct LightsReceiver {
     sheen_alpha: f32,
     layering: u32,
     // The sheen where it is no transformed cosine.
-    sheens: SheensView,
+    sheens: PriorSheensView,
 }
 
 // Sums of radiance x form factor; those of the base weighted by what the sheen leaves of it.
@@ -75,8 +75,8 @@ fn lights_add_polygons(receiver: LightsReceiver, before: LightsIncident, base_we
     var index = lights_next(receiver, first, end);
     while index < end {
         var form_factors = polygons_form_factors(receiver, polygons_lights[index], quads);
-        if SHEENS_MODEL != 0u {
-            form_factors.z = sheens_form_factor(receiver, index, form_factors.x);
+        if PRIOR_SHEENS_MODEL != 0u {
+            form_factors.z = prior_sheens_form_factor(receiver, index, form_factors.x);
         }
         let radiance = polygons_lights[index].radiance;
         incident = lights_add(receiver, incident, radiance, form_factors, base_weight);
@@ -106,7 +106,7 @@ fn lights_base_weight(receiver: LightsReceiver, base_weight: f32, cosine: f32) -
     if !SURFACES_RECIPROCAL || receiver.layering != MATERIAL_LAYERING_RECIPROCAL {
         return base_weight;
     }
-    let albedo = sheens_lobe(receiver.sheen_alpha, cosine).albedo;
+    let albedo = prior_sheens_lobe(receiver.sheen_alpha, cosine).albedo;
     return min(base_weight, max(sheen_base_weight(receiver.sheen_color, albedo), 0.0));
 }
 
@@ -137,8 +137,8 @@ fn lights_add_punctual(
     var densities = vec4f(
         ltc_density(POLYGONS_IDENTITY, local), ltc_density(receiver.ggx, local), ltc_density(receiver.sheen, local), 0.0,
     );
-    if SHEENS_MODEL != 0u {
-        densities.z = sheens_value(receiver.sheens, local) / receiver.sheens.albedo;
+    if PRIOR_SHEENS_MODEL != 0u {
+        densities.z = prior_sheens_value(receiver.sheens, local) / receiver.sheens.albedo;
     }
     let form_factors = select(vec4f(0.0), densities, is_above) + vec4f(vec3f(0.0), max(local.z, 0.0));
     return lights_add(receiver, incident, falloff * light.intensity, form_factors, base_weight);

@@ -9,7 +9,7 @@ struct PolygonsLight {
     center: vec3f,
     radius: f32,
     end_vertex: u32,
-    // In sheens_points.
+    // In prior_sheens_points.
     first_point: u32,
     end_point: u32,
 }
@@ -47,7 +47,7 @@ fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) ->
         next.sums.y += ltc_edge(outline, receiver.ggx);
         next.turns = vec4f(next.turns.xy, ltc_turn(walk.turns.zw, outline, receiver.ggx));
     }
-    if SURFACES_SHEEN && SHEENS_MODEL == 0u {
+    if SURFACES_SHEEN && PRIOR_SHEENS_MODEL == 0u {
         next.sums.z += ltc_edge(outline, receiver.sheen);
     }
     if SURFACES_RECIPROCAL {

@@ -1,5 +1,5 @@
 // The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all lights.
-// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, and of the passes material.wgsl, polygons.wgsl, lights.wgsl and sheens.wgsl.
+// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, and of the passes material.wgsl, polygons.wgsl, lights.wgsl and prior_sheens.wgsl.
 
 struct SurfacesFrame {
     clip_from_world: mat4x4f,
@@ -148,14 +148,14 @@ fn surfaces_radiance(
     if SURFACES_UNLIT {
         return surfaces_stored(surfaces_frame.lobes.w * surface.base_color, opacity);
     }
-    let sheen = sheens_lobe(surface.sheen_alpha, mu);
+    let sheen = prior_sheens_lobe(surface.sheen_alpha, mu);
     let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);
     let local_from_world = ltc_frame(normal, view);
     let up = local_from_world * (side * surfaces_normalize(n_world));
     let lights = LightsReceiver(
         p_world, normal, local_from_world, up, sheen.m_inv, ggx.m_inv,
         surface.sheen_color, surface.sheen_alpha, surface.layering,
-        sheens_view(local_from_world * view, mu, surface.sheen_alpha, sheen.albedo),
+        prior_sheens_view(local_from_world * view, mu, surface.sheen_alpha, sheen.albedo),
     );
     var specular = vec3f(0.0);
     var diffuse = (1.0 - surface.metallic) * surface.base_color;

@@ -3,7 +3,7 @@
 use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, VertexBufferLayout, VertexFormat};
 
 use super::draws::{Attributes, Variant};
-use super::sheens::NODES;
+use super::prior_sheens::NODES;
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
 
 /// What all pipelines of the pass have in common.
@@ -27,8 +27,8 @@ impl Pipelines {
             ("SURFACES_BLEND", number(look.blend)),
             ("SURFACES_FILTERED", number(self.radiance.samples > 1)),
             ("SURFACES_GREATEST", self.radiance.greatest()),
-            ("SHEENS_MODEL", f64::from(look.sheen_model)),
-            ("SHEENS_NODES", f64::from(NODES)),
+            ("PRIOR_SHEENS_MODEL", f64::from(look.sheen_model)),
+            ("PRIOR_SHEENS_NODES", f64::from(NODES)),
             ("LIGHTS_QUADS", number(lights.quads)),
             ("LIGHTS_POLYGONS", number(lights.polygons)),
             ("LIGHTS_PUNCTUAL", number(lights.punctual)),

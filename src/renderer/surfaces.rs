@@ -10,8 +10,8 @@ use wgpu::{BindGroup, BindGroupLayout, Device, Face, Queue, RenderPass, RenderPi
 use super::Gpu;
 use super::draws::{Batch, Frustum, Variant};
 use super::pipelines::Pipelines;
+use super::prior_sheens::SheenAlbedos;
 use super::resident::{MeshBuffers, Resident};
-use super::sheens::SheenAlbedos;
 use super::tables;
 use super::targets::{RadianceFormat, Targets};
 use super::view::View;
@@ -26,7 +26,7 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
-    include_str!("../../shaders/passes/sheens.wgsl"),
+    include_str!("../../shaders/passes/prior_sheens.wgsl"),
     include_str!("../../shaders/passes/surfaces.wgsl"),
 );
 

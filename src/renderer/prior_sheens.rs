@@ -4,12 +4,12 @@ use wgpu::{Device, RenderPipeline, ShaderModule, Texture, TextureFormat, Texture
 
 use super::Gpu;
 
-/// `SHEENS_NODES` of `sheens.wgsl`: nodes of the table, for each model along both axes.
+/// `PRIOR_SHEENS_NODES` of `prior_sheens.wgsl`: nodes of the table, for each model along both axes.
 pub(super) const NODES: u32 = 64;
 /// Models.
 const MODELS: u32 = 4;
 
-/// The table that `sheens.wgsl` looks up: logarithms of albedos.
+/// The table that `prior_sheens.wgsl` looks up: logarithms of albedos.
 pub(super) struct SheenAlbedos {
     texture: Texture,
     is_filled: bool,
@@ -66,14 +66,14 @@ fn pipeline(device: &Device, shader: &ShaderModule) -> RenderPipeline {
         bind_group_layouts: &[],
         immediate_size: 0,
     });
-    let constants = [("SHEENS_NODES", f64::from(NODES))];
+    let constants = [("PRIOR_SHEENS_NODES", f64::from(NODES))];
     let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("sheen albedos"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: shader,
-            entry_point: Some("sheens_vertex"),
+            entry_point: Some("prior_sheens_vertex"),
             compilation_options: compilation_options.clone(),
             buffers: &[],
         },
@@ -82,7 +82,7 @@ fn pipeline(device: &Device, shader: &ShaderModule) -> RenderPipeline {
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: shader,
-            entry_point: Some("sheens_fragment"),
+            entry_point: Some("prior_sheens_fragment"),
             compilation_options,
             targets: &[Some(TextureFormat::R32Float.into())],
         }),
