@@ -1,24 +1,15 @@
-// Sheens of prior work, to compare with: f_r times the light's cosine, summed over points on the lights, and a table of their albedos.
+// Sheens of prior work, to compare with: f_r times the light's cosine, and their albedos, of which there is a table.
 // src/models/ has the sources and the same formulas in f64.
 
-// 0: the transformed cosine of sheen.wgsl; otherwise one of the following.
-override PRIOR_SHEENS_MODEL: u32 = 0;
+// What VARIANT_SHEEN_MODEL counts.
 const PRIOR_SHEENS_BURLEY = 1u;
 const PRIOR_SHEENS_CONTY_KULLA = 2u;
 const PRIOR_SHEENS_NEUBELT_PETTINEO = 3u;
 const PRIOR_SHEENS_PATRY = 4u;
 // Smaller alphas are taken for it.
 const PRIOR_SHEENS_LEAST_ALPHA = 0.03;
-// Most of a light that the points may see of it, over its exact form factor.
-const PRIOR_SHEENS_MOST = 2.0;
-const PRIOR_SHEENS_PI = 3.14159265358979;
 // Logarithms of albedos. Node k of n sits at k/(n-1): alpha = least + (1 - least) x^2 along x; along y mu = (p (2 - p))^4 for each model in turn.
 override PRIOR_SHEENS_NODES: u32 = 2;
-// Steps of the cube root of the cosine of wo, and of half a turn, that albedos are summed over.
-const PRIOR_SHEENS_ELEVATIONS = 48u;
-const PRIOR_SHEENS_AZIMUTHS = 32u;
-// Points on each polygon, w the areas that they stand for.
-@group(0) @binding(9) var<storage, read> prior_sheens_points: array<vec4f>;
 @group(0) @binding(10) var prior_sheens_log_albedos: texture_2d<f32>;
 
 // A model as it is seen from one direction.
@@ -44,13 +35,6 @@ struct PriorSheensFit {
     limit: f32,
 }
 
-// The sheen's lobe, with the model's albedo: sums over points are divided by that, as the transformed cosine's density is.
-fn prior_sheens_lobe(alpha: f32, mu: f32) -> SheenLobe {
-    var lobe = sheen_lobe(surfaces_sheen_table, alpha, mu);
-    if PRIOR_SHEENS_MODEL != 0u { lobe.albedo = prior_sheens_albedo(alpha, mu); }
-    return lobe;
-}
-
 fn prior_sheens_albedo(alpha: f32, mu: f32) -> f32 {
     let x = sqrt(saturate((alpha - PRIOR_SHEENS_LEAST_ALPHA) / (1.0 - PRIOR_SHEENS_LEAST_ALPHA)));
     let root = sqrt(sqrt(saturate(mu)));
@@ -58,7 +42,7 @@ fn prior_sheens_albedo(alpha: f32, mu: f32) -> f32 {
     let low = min(vec2<u32>(at), vec2(PRIOR_SHEENS_NODES - 1u));
     let high = min(low + 1u, vec2(PRIOR_SHEENS_NODES - 1u));
     let weight = at - vec2f(low);
-    let first = vec2(0u, (PRIOR_SHEENS_MODEL - 1u) * PRIOR_SHEENS_NODES);
+    let first = vec2(0u, (VARIANT_SHEEN_MODEL - 1u) * PRIOR_SHEENS_NODES);
     let grazing = mix(prior_sheens_node(first + low), prior_sheens_node(first + vec2(high.x, low.y)), weight.x);
     let upright = mix(prior_sheens_node(first + vec2(low.x, high.y)), prior_sheens_node(first + high), weight.x);
     return exp(mix(grazing, upright, weight.y));
@@ -68,16 +52,28 @@ fn prior_sheens_node(at: vec2<u32>) -> f32 {
     return textureLoad(prior_sheens_log_albedos, at, 0).x;
 }
 
-// `local` is the direction to the view in the shading frame, of which mu takes the place of the cosine.
+// The variant's model. `local` is the direction to the view in the shading frame, of which mu takes the place of the cosine.
 fn prior_sheens_view(local: vec3f, mu: f32, alpha: f32, albedo: f32) -> PriorSheensView {
-    return prior_sheens_view_of(PRIOR_SHEENS_MODEL, max(alpha, PRIOR_SHEENS_LEAST_ALPHA), vec3f(length(local.xy), 0.0, max(mu, 1e-10)), albedo);
+    let towards = vec3f(length(local.xy), 0.0, max(mu, 1e-10));
+    return prior_sheens_view_of(VARIANT_SHEEN_MODEL, max(alpha, PRIOR_SHEENS_LEAST_ALPHA), towards, albedo);
 }
 
+// What a node of the table of albedos stands for.
+fn prior_sheens_view_of_node(node: vec2<u32>) -> PriorSheensView {
+    let place = vec2f(vec2(node.x, node.y % PRIOR_SHEENS_NODES)) / f32(PRIOR_SHEENS_NODES - 1u);
+    let root = place.y * (2.0 - place.y);
+    let mu = root * root * root * root;
+    let alpha = mix(PRIOR_SHEENS_LEAST_ALPHA, 1.0, place.x * place.x);
+    let towards = vec3f(sqrt((1.0 - mu) * (1.0 + mu)), 0.0, mu);
+    return prior_sheens_view_of(node.y / PRIOR_SHEENS_NODES + 1u, alpha, towards, 1.0);
+}
+
+// `towards` is never zero.
 fn prior_sheens_view_of(model: u32, alpha: f32, towards: vec3f, albedo: f32) -> PriorSheensView {
     var view: PriorSheensView;
     view.model = model;
     view.alpha = alpha;
-    view.wi = surfaces_normalize(towards);
+    view.wi = towards * inverseSqrt(dot(towards, towards));
     view.albedo = max(albedo, 1e-20);
     if model == PRIOR_SHEENS_CONTY_KULLA {
         view.fit = prior_sheens_fit(alpha);
@@ -132,68 +128,23 @@ fn prior_sheens_value(view: PriorSheensView, wo: vec3f) -> f32 {
             return wo.z * rest * rest * rest * rest * rest;
         }
         case PRIOR_SHEENS_CONTY_KULLA: {
-            let distribution = (2.0 + 1.0 / alpha) * pow(sine_square, 0.5 / alpha) / (2.0 * PRIOR_SHEENS_PI);
+            let distribution = (2.0 + 1.0 / alpha) * pow(sine_square, 0.5 / alpha) / (2.0 * LTC_PI);
             return distribution / (4.0 * (view.of_wi + view.wi.z * (1.0 + prior_sheens_lambda(view.fit, wo.z))));
         }
         case PRIOR_SHEENS_NEUBELT_PETTINEO: {
             // Past 80 nothing is left.
             let exponent = min(up / square / (sine_square * alpha * alpha), 80.0);
             let peak = select(0.0, exp(-exponent) / (sine_square * sine_square), exponent < 80.0);
-            let distribution = (1.0 + 4.0 * peak) / (PRIOR_SHEENS_PI * (1.0 + 4.0 * alpha * alpha));
+            let distribution = (1.0 + 4.0 * peak) / (LTC_PI * (1.0 + 4.0 * alpha * alpha));
             return distribution * wo.z / (4.0 * (view.wi.z * (1.0 - wo.z) + wo.z));
         }
         default: {
             let sigma = alpha * alpha;
             let half_square = 0.5 * square;
             let ratio = half_square / (half_square + up * (1.0 - sigma * sigma) / (2.0 * sigma * sigma));
-            let kernel = ratio * ratio / (4.0 * PRIOR_SHEENS_PI * sigma);
+            let kernel = ratio * ratio / (4.0 * LTC_PI * sigma);
             let taken = 1.0 - exp(-sum.z / max(view.wi.z * wo.z, 1e-30));
             return kernel * taken * wo.z / (sum.z * view.of_wi);
         }
     }
-}
-
-// The model's form factor of a polygon over its albedo, summed over points. As near as points are to each other they say too much or too little:
-// never more than PRIOR_SHEENS_MOST times as much of the light as is there, by the diffuse lobe's exact form factor.
-fn prior_sheens_form_factor(receiver: LightsReceiver, polygon: u32, diffuse: f32) -> f32 {
-    var sums = vec2f(0.0);
-    let end = select(0u, polygons_lights[polygon].end_point, diffuse > 0.0);
-    for (var index = polygons_lights[polygon].first_point; index < end; index++) {
-        let point = prior_sheens_points[index];
-        let way = point.xyz - receiver.p_world;
-        let inverse = inverseSqrt(max(dot(way, way), 1e-20));
-        let wo = receiver.local_from_world * (way * inverse);
-        if dot(receiver.up, wo) > 0.0 {
-            let solid_angle = point.w * abs(dot(polygons_lights[polygon].normal, way)) * inverse * inverse * inverse;
-            sums += solid_angle * vec2f(prior_sheens_value(receiver.sheens, wo), max(wo.z, 0.0));
-        }
-    }
-    let most = PRIOR_SHEENS_MOST * PRIOR_SHEENS_PI * diffuse;
-    return sums.x * most / max(sums.y, max(most, 1e-30)) / receiver.sheens.albedo;
-}
-
-// Over a target of the table's size.
-@vertex
-fn prior_sheens_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    return vec4f(select(-1.0, 3.0, index == 1u), select(-1.0, 3.0, index == 2u), 0.0, 1.0);
-}
-
-@fragment
-fn prior_sheens_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let texel = vec2<u32>(position.xy);
-    let place = vec2f(vec2(texel.x, texel.y % PRIOR_SHEENS_NODES)) / f32(PRIOR_SHEENS_NODES - 1u);
-    let root = place.y * (2.0 - place.y);
-    let mu = root * root * root * root;
-    let alpha = mix(PRIOR_SHEENS_LEAST_ALPHA, 1.0, place.x * place.x);
-    let view = prior_sheens_view_of(texel.y / PRIOR_SHEENS_NODES + 1u, alpha, vec3f(sqrt((1.0 - mu) * (1.0 + mu)), 0.0, mu), 1.0);
-    // Drivers' sines may err by 5e-4, which narrow lobes would notice: directions are unit all the same.
-    var sum = 0.0;
-    for (var k = 0u; k < PRIOR_SHEENS_ELEVATIONS * PRIOR_SHEENS_AZIMUTHS; k++) {
-        let rise = (f32(k / PRIOR_SHEENS_AZIMUTHS) + 0.5) / f32(PRIOR_SHEENS_ELEVATIONS);
-        let phi = (f32(k % PRIOR_SHEENS_AZIMUTHS) + 0.5) / f32(PRIOR_SHEENS_AZIMUTHS) * PRIOR_SHEENS_PI;
-        let height = rise * rise * rise;
-        let sine = sqrt((1.0 - height) * (1.0 + height));
-        sum += 3.0 * rise * rise * prior_sheens_value(view, vec3f(sine * normalize(vec2f(cos(phi), sin(phi))), height));
-    }
-    return vec4f(log(max(sum * 2.0 * PRIOR_SHEENS_PI / f32(PRIOR_SHEENS_ELEVATIONS * PRIOR_SHEENS_AZIMUTHS), 1e-20)), 0.0, 0.0, 1.0);
 }

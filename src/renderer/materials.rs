@@ -30,7 +30,7 @@ pub(super) struct GpuMaterial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Look {
     pub sheen: bool,
-    /// `PRIOR_SHEENS_MODEL` of `prior_sheens.wgsl`: 0 where lights are integrated over in closed form.
+    /// `VARIANT_SHEEN_MODEL` of `variant.wgsl`: 0 where lights are integrated over in closed form.
     pub sheen_model: u32,
     pub specular: bool,
     pub reciprocal: bool,
