@@ -1,7 +1,8 @@
-//! The house's order: who may import whom, and how long a file may grow.
+//! The house's order: who may import whom, which shader may name what, and how long a file may grow.
 
 mod imports;
 mod lengths;
+mod passes;
 
 use std::fs;
 use std::path::{Path, PathBuf};
