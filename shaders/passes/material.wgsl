@@ -1,7 +1,6 @@
 // Materials: factors and textures to what a surface is made of at a point.
 
-// Which textures count: bit k is slot k's (scene::TextureSlot). The others are compiled away.
-override MATERIAL_TEXTURES: u32 = 0;
+// The slots of textures (scene::TextureSlot).
 const MATERIAL_BASE_COLOR = 0u;
 const MATERIAL_METALLIC_ROUGHNESS = 1u;
 const MATERIAL_NORMAL_MAP = 2u;
@@ -12,7 +11,6 @@ const MATERIAL_SPECULAR_COLOR = 6u;
 const MATERIAL_SHEEN_COLOR = 7u;
 const MATERIAL_SHEEN_ROUGHNESS = 8u;
 const MATERIAL_SHEEN_WEIGHT = 9u;
-override MATERIAL_NORMAL: bool = (MATERIAL_TEXTURES & 4u) != 0u;
 
 const MATERIAL_LAYERING_GLTF = 0u;
 const MATERIAL_LAYERING_OPENPBR = 1u;
@@ -103,7 +101,7 @@ fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurf
 }
 
 fn material_has(slot: u32) -> bool {
-    return (MATERIAL_TEXTURES & (1u << slot)) != 0u;
+    return (VARIANT_TEXTURES & (1u << slot)) != 0u;
 }
 
 fn material_uv(slot: u32, tex_coords: vec4f) -> vec2f {
@@ -131,7 +129,7 @@ fn material_textured(
         surface.roughness *= texel.g;
         surface.metallic *= texel.b;
     }
-    if MATERIAL_NORMAL {
+    if VARIANT_NORMAL_MAP {
         let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
         let texel = textureSample(material_normal, material_normal_sampler, uv);
         surface.normal_length = 1.0 - (1.0 - texel.a) * (1.0 - texel.a);
@@ -179,7 +177,7 @@ fn material_textured(
 
 // What is left of the base under a sheen of this albedo, which may pass 1 (Conty-Kulla's does), seen from the view's side.
 fn material_base_weight(surface: MaterialSurface, sheen_albedo: f32) -> f32 {
-    if !SURFACES_SHEEN {
+    if !VARIANT_SHEEN {
         return 1.0;
     }
     switch surface.layering {

@@ -9,7 +9,7 @@ struct PolygonsLight {
     center: vec3f,
     radius: f32,
     end_vertex: u32,
-    // In sheens_points.
+    // In points_on_polygons.
     first_point: u32,
     end_point: u32,
 }
@@ -21,15 +21,19 @@ struct PolygonsLight {
 // The error of interpolated positions, as a share of the largest coordinate: a few roundings of f32. Points no further
 // from a light's plane are in it, so that a light does not shine on itself.
 const POLYGONS_POSITION_ERROR = 1e-6;
-const POLYGONS_IDENTITY = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+
+// The angles along the horizon that close what is cut off there: one for all lobes with c = a, one for each other lobe.
+struct PolygonsTurns {
+    // Of the diffuse lobe and the sheen.
+    isotropic: vec2f,
+    specular: vec2f,
+}
 
 // On the way round a light.
 struct PolygonsWalk {
     outline: LtcOutline,
-    // Of the diffuse, specular and sheen lobe.
-    sums: vec3f,
-    // Along the horizon: xy of the diffuse lobe and the sheen, zw of the specular one.
-    turns: vec4f,
+    sums: LobesScalars,
+    turns: PolygonsTurns,
     // The diffuse lobe's sum as a vector.
     vector: vec3f,
     // The light's vertex reached, and the contour's first that is above the surface, where there has been one.
@@ -38,19 +42,29 @@ struct PolygonsWalk {
     is_begun: bool,
 }
 
-fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) -> PolygonsWalk {
+// What a light is to a receiver.
+struct PolygonsIntegrals {
+    form_factors: LobesScalars,
+    // Of the light's directions, weighted by the cosine.
+    mean_cosine: f32,
+}
+
+fn polygons_walk(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f) -> PolygonsWalk {
     let outline = ltc_next(walk.outline, vertex);
-    var next = PolygonsWalk(outline, walk.sums, walk.turns, walk.vector, vertex, walk.first, true);
-    next.sums.x += ltc_edge(outline, POLYGONS_IDENTITY);
-    next.turns = vec4f(ltc_turn(walk.turns.xy, outline, POLYGONS_IDENTITY), walk.turns.zw);
-    if SURFACES_SPECULAR {
-        next.sums.y += ltc_edge(outline, receiver.ggx);
-        next.turns = vec4f(next.turns.xy, ltc_turn(walk.turns.zw, outline, receiver.ggx));
+    var next = walk;
+    next.outline = outline;
+    next.corner = vertex;
+    next.is_begun = true;
+    next.sums.diffuse += ltc_edge(outline, LOBES_DIFFUSE);
+    next.turns.isotropic = ltc_turn(walk.turns.isotropic, outline, LOBES_DIFFUSE);
+    if VARIANT_SPECULAR {
+        next.sums.specular += ltc_edge(outline, receiver.lobes.specular.m_inv);
+        next.turns.specular = ltc_turn(walk.turns.specular, outline, receiver.lobes.specular.m_inv);
     }
-    if SURFACES_SHEEN && SHEENS_MODEL == 0u {
-        next.sums.z += ltc_edge(outline, receiver.sheen);
+    if VARIANT_SHEEN && !VARIANT_PRIOR_SHEEN {
+        next.sums.sheen += ltc_edge(outline, receiver.lobes.sheen.m_inv);
     }
-    if SURFACES_RECIPROCAL {
+    if VARIANT_RECIPROCAL {
         next.vector += ltc_edge_vector(outline);
     }
     return next;
@@ -58,7 +72,7 @@ fn polygons_walk(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) ->
 
 // Under a normal map light has to come from above the surface too, not only from above the mapped normal's horizon: the outline is
 // cut at the surface (Sutherland and Hodgman 1974) before it is walked along.
-fn polygons_walk_above(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f, is_last: bool) -> PolygonsWalk {
+fn polygons_walk_above(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f, is_last: bool) -> PolygonsWalk {
     let start = dot(receiver.up, walk.corner);
     let end = dot(receiver.up, vertex);
     var next = walk;
@@ -76,59 +90,71 @@ fn polygons_walk_above(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec
 }
 
 // Begins where nothing has begun.
-fn polygons_walk_on(walk: PolygonsWalk, receiver: LightsReceiver, vertex: vec3f) -> PolygonsWalk {
+fn polygons_walk_on(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f) -> PolygonsWalk {
     if walk.is_begun {
         return polygons_walk(walk, receiver, vertex);
     }
-    return PolygonsWalk(ltc_begin(vertex), walk.sums, walk.turns, walk.vector, vertex, vertex, true);
+    return polygons_begin(walk, vertex, true);
 }
 
-// Form factors of one light: diffuse, specular, sheen; w is the mean cosine of its directions. is_quad where it is known to be one
-// outline of four vertices: what is not in a loop, and loads from places that are known, costs two thirds.
-fn polygons_form_factors(receiver: LightsReceiver, light: PolygonsLight, is_quad: bool) -> vec4f {
+// Begins a contour. It is walked along from here, or from where polygons_walk_above comes above the surface.
+fn polygons_begin(walk: PolygonsWalk, vertex: vec3f, is_begun: bool) -> PolygonsWalk {
+    var next = walk;
+    next.outline = ltc_begin(vertex);
+    next.corner = vertex;
+    next.first = vertex;
+    next.is_begun = is_begun;
+    return next;
+}
+
+// is_quad where the light is known to be one outline of four vertices: what is not in a loop, and loads from places that are
+// known, costs two thirds.
+fn polygons_integrals(receiver: Receiver, light: PolygonsLight, is_quad: bool) -> PolygonsIntegrals {
     let to_vertex = polygons_vertices[light.first_vertex].xyz - receiver.p_world;
     let side = ltc_side(light.normal, to_vertex, light.two_sided != 0u);
     let size = abs(receiver.p_world) + abs(to_vertex);
     let error = POLYGONS_POSITION_ERROR * max(size.x, max(size.y, size.z));
+    var integrals: PolygonsIntegrals;
     if side == 0.0 || abs(dot(light.normal, to_vertex)) <= error {
-        return vec4f(0.0);
+        return integrals;
     }
-    var walk: PolygonsWalk;
-    walk.turns = vec4f(LTC_LEVEL, LTC_LEVEL);
-    if is_quad && !MATERIAL_NORMAL {
-        let first = light.first_vertex;
-        walk.outline = ltc_begin(polygons_local(receiver, first + 3u));
-        walk = polygons_walk(walk, receiver, polygons_local(receiver, first));
-        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 1u));
-        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 2u));
-        walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 3u));
-    } else {
-        walk = polygons_walk_all(walk, receiver, light);
-    }
-    let turn = walk.turns.xy;
-    return vec4f(
-        ltc_form_factor(walk.sums.x, turn, POLYGONS_IDENTITY, side),
-        ltc_form_factor(walk.sums.y, walk.turns.zw, receiver.ggx, side),
-        ltc_form_factor(walk.sums.z, turn, receiver.sheen, side),
-        polygons_mean_cosine(ltc_vector(walk.vector, turn, side)),
-    );
+    let walk = polygons_walk_around(receiver, light, is_quad);
+    let turns = walk.turns;
+    let lobes = receiver.lobes;
+    integrals.form_factors.diffuse = ltc_form_factor(walk.sums.diffuse, turns.isotropic, LOBES_DIFFUSE, side);
+    integrals.form_factors.specular = ltc_form_factor(walk.sums.specular, turns.specular, lobes.specular.m_inv, side);
+    integrals.form_factors.sheen = ltc_form_factor(walk.sums.sheen, turns.isotropic, lobes.sheen.m_inv, side);
+    integrals.mean_cosine = polygons_mean_cosine(ltc_vector(walk.vector, turns.isotropic, side));
+    return integrals;
 }
 
-fn polygons_local(receiver: LightsReceiver, index: u32) -> vec3f {
+fn polygons_walk_around(receiver: Receiver, light: PolygonsLight, is_quad: bool) -> PolygonsWalk {
+    var walk: PolygonsWalk;
+    walk.turns = PolygonsTurns(LTC_LEVEL, LTC_LEVEL);
+    if !is_quad || VARIANT_NORMAL_MAP {
+        return polygons_walk_all(walk, receiver, light);
+    }
+    let first = light.first_vertex;
+    walk.outline = ltc_begin(polygons_local(receiver, first + 3u));
+    walk = polygons_walk(walk, receiver, polygons_local(receiver, first));
+    walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 1u));
+    walk = polygons_walk(walk, receiver, polygons_local(receiver, first + 2u));
+    return polygons_walk(walk, receiver, polygons_local(receiver, first + 3u));
+}
+
+fn polygons_local(receiver: Receiver, index: u32) -> vec3f {
     return receiver.local_from_world * (polygons_vertices[index].xyz - receiver.p_world);
 }
 
 // Any number of outlines and vertices.
-fn polygons_walk_all(start: PolygonsWalk, receiver: LightsReceiver, light: PolygonsLight) -> PolygonsWalk {
+fn polygons_walk_all(start: PolygonsWalk, receiver: Receiver, light: PolygonsLight) -> PolygonsWalk {
     var walk = start;
     for (var index = light.first_vertex; index < light.end_vertex; index++) {
         let mark = polygons_vertices[index].w;
         let p_local = polygons_local(receiver, index);
         if mark > 0.0 {
-            walk = PolygonsWalk(
-                ltc_begin(p_local), walk.sums, walk.turns, walk.vector, p_local, p_local, !MATERIAL_NORMAL,
-            );
-        } else if MATERIAL_NORMAL {
+            walk = polygons_begin(walk, p_local, !VARIANT_NORMAL_MAP);
+        } else if VARIANT_NORMAL_MAP {
             walk = polygons_walk_above(walk, receiver, p_local, mark < 0.0);
         } else {
             walk = polygons_walk(walk, receiver, p_local);

@@ -1,12 +1,15 @@
 // The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all lights.
-// Concatenated with ltc.wgsl, sheen.wgsl, ggx.wgsl, and of the passes material.wgsl, polygons.wgsl, lights.wgsl and sheens.wgsl.
+// It stands on the floors of the other files, which src/renderer/surfaces.rs lists.
 
 struct SurfacesFrame {
     clip_from_world: mat4x4f,
     // The eye's place (w = 1) or the direction towards it (w = 0).
     eye: vec4f,
-    // Weights, 0 or 1, of sheen, diffuse, specular, emission.
-    lobes: vec4f,
+    // Weights, 0 or 1, of the lobes and the emission.
+    diffuse: f32,
+    specular: f32,
+    sheen: f32,
+    emission: f32,
     // The camera's place. Interpolated positions are relative to it: drivers err by a share of what they interpolate.
     origin: vec3f,
     ambient: vec3f,
@@ -24,21 +27,10 @@ struct SurfacesInstance {
     handedness: f32,
 }
 
-// What a material has; the rest is compiled away.
-override SURFACES_SHEEN: bool = true;
-override SURFACES_SPECULAR: bool = true;
-override SURFACES_RECIPROCAL: bool = true;
-override SURFACES_UNLIT: bool = false;
-override SURFACES_MASK: bool = false;
-override SURFACES_BLEND: bool = false;
-// Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.
-override SURFACES_FILTERED: bool = true;
 // The greatest number that the target holds.
 override SURFACES_GREATEST: f32 = 65504.0;
 
 @group(0) @binding(0) var<uniform> surfaces_frame: SurfacesFrame;
-@group(0) @binding(1) var surfaces_sheen_table: texture_2d<f32>;
-@group(0) @binding(2) var surfaces_ggx_table: texture_2d<f32>;
 @group(0) @binding(3) var<storage, read> surfaces_instances: array<SurfacesInstance>;
 
 struct SurfacesVarying {
@@ -133,7 +125,7 @@ fn surfaces_radiance(
     let normal = side * surfaces_normalize(surface.normal);
     var mu = max(dot(normal, view), 0.0);
     var roughness = surface.roughness;
-    if SURFACES_FILTERED {
+    if VARIANT_FILTERED {
         let unit = surfaces_normalize(n_center);
         let right = dpdx(unit);
         let down = dpdy(unit);
@@ -141,38 +133,31 @@ fn surfaces_radiance(
         let variance = 0.25 * (dot(right, right) + dot(down, down));
         roughness = surfaces_filtered_roughness(roughness, variance, surface.normal_length);
     }
-    if SURFACES_MASK && surface.opacity < surface.alpha_cutoff {
+    if VARIANT_MASK && surface.opacity < surface.alpha_cutoff {
         discard;
     }
-    let opacity = select(1.0, surface.opacity, SURFACES_BLEND);
-    if SURFACES_UNLIT {
-        return surfaces_stored(surfaces_frame.lobes.w * surface.base_color, opacity);
+    let opacity = select(1.0, surface.opacity, VARIANT_BLEND);
+    if VARIANT_UNLIT {
+        return surfaces_stored(surfaces_frame.emission * surface.base_color, opacity);
     }
-    let sheen = sheens_lobe(surface.sheen_alpha, mu);
-    let ggx = ggx_lobe(surfaces_ggx_table, roughness, mu);
-    let local_from_world = ltc_frame(normal, view);
-    let up = local_from_world * (side * surfaces_normalize(n_world));
-    let lights = LightsReceiver(
-        p_world, normal, local_from_world, up, sheen.m_inv, ggx.m_inv,
-        surface.sheen_color, surface.sheen_alpha, surface.layering,
-        sheens_view(local_from_world * view, mu, surface.sheen_alpha, sheen.albedo),
-    );
+    let lobes = lobes_at(roughness, surface.sheen_alpha, mu);
+    let smooth_normal = side * surfaces_normalize(n_world);
+    let receiver = receiver_at(p_world, normal, smooth_normal, view, mu, surface, lobes);
     var specular = vec3f(0.0);
     var diffuse = (1.0 - surface.metallic) * surface.base_color;
-    if SURFACES_SPECULAR {
+    if VARIANT_SPECULAR {
         // Tints may be greater than 1.
         let dielectric_f0 = min(surface.f0, vec3f(surface.f90));
         let f0 = mix(dielectric_f0, surface.base_color, surface.metallic);
         let f90 = vec3f(mix(surface.f90, 1.0, surface.metallic));
-        specular = surfaces_frame.lobes.z * ggx_albedo(ggx, f0, f90);
-        diffuse *= ggx_base_weight(ggx_albedo(ggx, dielectric_f0, vec3f(surface.f90)));
+        specular = surfaces_frame.specular * ggx_albedo(lobes.specular, f0, f90);
+        diffuse *= ggx_base_weight(ggx_albedo(lobes.specular, dielectric_f0, vec3f(surface.f90)));
     }
-    diffuse *= surfaces_frame.lobes.y;
-    let base_weight = material_base_weight(surface, sheen.albedo);
-    let reflected = surface.sheen_color * sheen.albedo * surfaces_frame.lobes.x;
-    let incident = lights_incident(lights, base_weight);
-    let ambient = lights_ambient(lights, base_weight) * surface.occlusion * surfaces_frame.ambient;
-    let radiance = surfaces_frame.lobes.w * surface.emission
+    diffuse *= surfaces_frame.diffuse;
+    let reflected = surface.sheen_color * lobes.sheen.albedo * surfaces_frame.sheen;
+    let incident = lights_incident(receiver);
+    let ambient = lights_ambient(receiver) * surface.occlusion * surfaces_frame.ambient;
+    let radiance = surfaces_frame.emission * surface.emission
         + diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
         + reflected * (incident.sheen + surface.occlusion * surfaces_frame.ambient);
     return surfaces_stored(radiance, opacity);

@@ -30,7 +30,7 @@ pub(super) struct GpuMaterial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Look {
     pub sheen: bool,
-    /// `SHEENS_MODEL` of `sheens.wgsl`: 0 where lights are integrated over in closed form.
+    /// `VARIANT_SHEEN_MODEL` of `variant.wgsl`: 0 where lights are integrated over in closed form.
     pub sheen_model: u32,
     pub specular: bool,
     pub reciprocal: bool,
@@ -75,7 +75,7 @@ impl Look {
     }
 }
 
-/// As `sheens.wgsl` counts.
+/// As `prior_sheens.wgsl` counts.
 fn model_number(model: SheenModel) -> u32 {
     match model {
         // The latter are refused before.

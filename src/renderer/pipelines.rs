@@ -3,7 +3,7 @@
 use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, VertexBufferLayout, VertexFormat};
 
 use super::draws::{Attributes, Variant};
-use super::sheens::NODES;
+use super::prior_sheens::NODES;
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
 
 /// What all pipelines of the pass have in common.
@@ -19,20 +19,20 @@ impl Pipelines {
         let Variant { look, attributes, lights, mirrored } = *variant;
         let number = |on: bool| f64::from(u8::from(on));
         let constants = [
-            ("SURFACES_SHEEN", number(look.sheen)),
-            ("SURFACES_SPECULAR", number(look.specular)),
-            ("SURFACES_RECIPROCAL", number(look.reciprocal)),
-            ("SURFACES_UNLIT", number(look.unlit)),
-            ("SURFACES_MASK", number(look.mask)),
-            ("SURFACES_BLEND", number(look.blend)),
-            ("SURFACES_FILTERED", number(self.radiance.samples > 1)),
+            ("VARIANT_SHEEN", number(look.sheen)),
+            ("VARIANT_SPECULAR", number(look.specular)),
+            ("VARIANT_RECIPROCAL", number(look.reciprocal)),
+            ("VARIANT_UNLIT", number(look.unlit)),
+            ("VARIANT_MASK", number(look.mask)),
+            ("VARIANT_BLEND", number(look.blend)),
+            ("VARIANT_SHEEN_MODEL", f64::from(look.sheen_model)),
+            ("VARIANT_TEXTURES", f64::from(look.textures)),
+            ("VARIANT_QUADS", number(lights.quads)),
+            ("VARIANT_POLYGONS", number(lights.polygons)),
+            ("VARIANT_PUNCTUAL", number(lights.punctual)),
+            ("VARIANT_FILTERED", number(self.radiance.samples > 1)),
+            ("PRIOR_SHEENS_NODES", f64::from(NODES)),
             ("SURFACES_GREATEST", self.radiance.greatest()),
-            ("SHEENS_MODEL", f64::from(look.sheen_model)),
-            ("SHEENS_NODES", f64::from(NODES)),
-            ("LIGHTS_QUADS", number(lights.quads)),
-            ("LIGHTS_POLYGONS", number(lights.polygons)),
-            ("LIGHTS_PUNCTUAL", number(lights.punctual)),
-            ("MATERIAL_TEXTURES", f64::from(look.textures)),
         ];
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let [vertex, fragment] = match attributes.any {

@@ -10,24 +10,35 @@ use wgpu::{BindGroup, BindGroupLayout, Device, Face, Queue, RenderPass, RenderPi
 use super::Gpu;
 use super::draws::{Batch, Frustum, Variant};
 use super::pipelines::Pipelines;
+use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
-use super::sheens::SheenAlbedos;
 use super::tables;
 use super::targets::{RadianceFormat, Targets};
 use super::view::View;
 use crate::scene::Settings;
 use crate::table::SheenTable;
 
-/// The pass' WGSL: the files that engines copy, and this program's own bindings and entry points.
+/// The pass' WGSL, floor by floor: each file stands on those above it in this list, and a test holds the order.
 pub const SURFACES_WGSL: &str = concat!(
+    // What engines copy.
     include_str!("../../shaders/ltc.wgsl"),
     include_str!("../../shaders/sheen.wgsl"),
     include_str!("../../shaders/ggx.wgsl"),
+    // What a pipeline is made for.
+    include_str!("../../shaders/passes/variant.wgsl"),
+    // What a surface is made of.
     include_str!("../../shaders/passes/material.wgsl"),
+    include_str!("../../shaders/passes/prior_sheens.wgsl"),
+    // How it scatters light, and the point where it does so.
+    include_str!("../../shaders/passes/lobes.wgsl"),
+    include_str!("../../shaders/passes/receiver.wgsl"),
+    // What of the lights arrives there.
     include_str!("../../shaders/passes/polygons.wgsl"),
+    include_str!("../../shaders/passes/points.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
-    include_str!("../../shaders/passes/sheens.wgsl"),
+    // Entry points.
     include_str!("../../shaders/passes/surfaces.wgsl"),
+    include_str!("../../shaders/passes/prior_albedos.wgsl"),
 );
 
 /// `SurfacesFrame` of `surfaces.wgsl`.
@@ -36,7 +47,10 @@ pub const SURFACES_WGSL: &str = concat!(
 struct Frame {
     clip_from_world: Mat4,
     eye: Vec4,
-    lobes: Vec4,
+    diffuse: f32,
+    specular: f32,
+    sheen: f32,
+    emission: f32,
     origin: Vec3,
     padding: u32,
     ambient: Vec3,
@@ -49,7 +63,7 @@ pub struct SurfacesPass {
     made: HashMap<(Variant, Option<Face>), RenderPipeline>,
     pipelines: Pipelines,
     frame: wgpu::Buffer,
-    albedos: SheenAlbedos,
+    albedos: PriorAlbedos,
     /// The tables of the sheen, of the specular base, and of the albedos of the other sheens.
     tables: [TextureView; 3],
     bind_group: BindGroup,
@@ -75,7 +89,7 @@ impl SurfacesPass {
             bind_group_layouts: &[Some(&layout), Some(&resident.material_layout)],
             immediate_size: 0,
         });
-        let albedos = SheenAlbedos::new(device);
+        let albedos = PriorAlbedos::new(device);
         let tables = [tables::sheen(gpu, table), tables::ggx(gpu), albedos.view()];
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
         let pipelines = Pipelines { shader, layout: pipeline_layout, radiance };
@@ -118,7 +132,10 @@ impl SurfacesPass {
         let frame = Frame {
             clip_from_world: view.clip_from_world,
             eye: view.eye,
-            lobes: [lobes.sheen, lobes.diffuse, lobes.specular, lobes.emission].map(weight).into(),
+            diffuse: weight(lobes.diffuse),
+            specular: weight(lobes.specular),
+            sheen: weight(lobes.sheen),
+            emission: weight(lobes.emission),
             origin: view.origin,
             padding: 0,
             ambient: settings.ambient,
@@ -298,7 +315,8 @@ mod tests {
 
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
-        let members = members!(Frame { clip_from_world, eye, lobes, origin, ambient, gain });
+        let members =
+            members!(Frame { clip_from_world, eye, diffuse, specular, sheen, emission, origin, ambient, gain });
         assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
     }
 }

@@ -1,9 +1,10 @@
-//! The house's order: who may import whom, which file uses which, and how long a file may grow.
+//! The house's order: who may import whom, which file uses which, which shader may name what, and how long a file may grow.
 
 mod floors;
 mod imports;
 mod lengths;
 mod machine;
+mod passes;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,25 +1,25 @@
-//! The albedos of sheens that have no table of their own, summed up on the device once they are needed.
+//! The albedos of prior work's sheens, summed up on the device once they are needed.
 
 use wgpu::{Device, RenderPipeline, ShaderModule, Texture, TextureFormat, TextureView};
 
 use super::Gpu;
 
-/// `SHEENS_NODES` of `sheens.wgsl`: nodes of the table, for each model along both axes.
+/// `PRIOR_SHEENS_NODES` of `prior_sheens.wgsl`: nodes of the table, for each model along both axes.
 pub(super) const NODES: u32 = 64;
 /// Number of models in the table.
 const MODELS: u32 = 4;
 
-/// The table that `sheens.wgsl` looks up: logarithms of albedos.
-pub(super) struct SheenAlbedos {
+/// The table that `prior_sheens.wgsl` looks up: logarithms of albedos.
+pub(super) struct PriorAlbedos {
     texture: Texture,
     is_filled: bool,
 }
 
-impl SheenAlbedos {
+impl PriorAlbedos {
     /// The table, not filled yet.
     pub fn new(device: &Device) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("sheen albedos"),
+            label: Some("prior sheens' albedos"),
             size: wgpu::Extent3d { width: NODES, height: MODELS * NODES, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
@@ -43,7 +43,7 @@ impl SheenAlbedos {
         let pipeline = pipeline(&gpu.device, shader);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("sheen albedos"),
+            label: Some("prior sheens' albedos"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &self.view(),
                 depth_slice: None,
@@ -62,18 +62,18 @@ impl SheenAlbedos {
 
 fn pipeline(device: &Device, shader: &ShaderModule) -> RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("sheen albedos"),
+        label: Some("prior sheens' albedos"),
         bind_group_layouts: &[],
         immediate_size: 0,
     });
-    let constants = [("SHEENS_NODES", f64::from(NODES))];
+    let constants = [("PRIOR_SHEENS_NODES", f64::from(NODES))];
     let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("sheen albedos"),
+        label: Some("prior sheens' albedos"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: shader,
-            entry_point: Some("sheens_vertex"),
+            entry_point: Some("prior_albedos_vertex"),
             compilation_options: compilation_options.clone(),
             buffers: &[],
         },
@@ -82,7 +82,7 @@ fn pipeline(device: &Device, shader: &ShaderModule) -> RenderPipeline {
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: shader,
-            entry_point: Some("sheens_fragment"),
+            entry_point: Some("prior_albedos_fragment"),
             compilation_options,
             targets: &[Some(TextureFormat::R32Float.into())],
         }),

@@ -1,0 +1,23 @@
+// What a pipeline of the surfaces' pass is made for. Whatever a variant does not need is compiled away.
+
+// What a material has.
+override VARIANT_SHEEN: bool = true;
+override VARIANT_SPECULAR: bool = true;
+override VARIANT_RECIPROCAL: bool = true;
+override VARIANT_UNLIT: bool = false;
+override VARIANT_MASK: bool = false;
+override VARIANT_BLEND: bool = false;
+// 0: the sheen is the transformed cosine of sheen.wgsl; otherwise prior work's of that number (prior_sheens.wgsl).
+override VARIANT_SHEEN_MODEL: u32 = 0;
+override VARIANT_PRIOR_SHEEN: bool = VARIANT_SHEEN_MODEL != 0u;
+// Which textures count: bit k is slot k's (scene::TextureSlot), and bit 2 the normal map's.
+override VARIANT_TEXTURES: u32 = 0;
+override VARIANT_NORMAL_MAP: bool = (VARIANT_TEXTURES & 4u) != 0u;
+
+// Which kinds of lights there are: a driver may run the body of a loop once that has nothing to do.
+override VARIANT_QUADS: bool = true;
+override VARIANT_POLYGONS: bool = true;
+override VARIANT_PUNCTUAL: bool = true;
+
+// Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.
+override VARIANT_FILTERED: bool = true;
