@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::lights::LightKinds;
 use super::materials::Look;
-use crate::scene::{Bounds, Instance, Light, Mesh, Scene, Settings};
+use crate::scene::{Bounds, DrawnInstances, Instance, Mesh, Scene, Settings};
 
 /// `SurfacesInstance` of `surfaces.wgsl`.
 #[repr(C)]
@@ -79,9 +79,8 @@ pub(super) struct Draws {
 impl Draws {
     /// `mesh_bounds` are those of the scene's meshes, `kinds` what its lights are.
     pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
-        let mut lights = vec![None; scene.instances.len()];
-        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        let is_hidden = |index: usize| lights[index].is_some() && !settings.lights_visible;
+        let drawn = DrawnInstances::new(scene, settings);
+        let is_hidden = |index: usize| !drawn.is_drawn(index);
         let looks = scene.materials.iter().enumerate().map(|(index, material)| Look::new(index, material, settings));
         let looks: Vec<Look> = looks.collect();
         let variant = |instance: &Instance| {
@@ -99,7 +98,7 @@ impl Draws {
         for index in order {
             let instance = &scene.instances[index];
             let at = draws.instances.len() as u32;
-            draws.instances.push(gpu_instance(scene, instance, lights[index], variants[index].mirrored));
+            draws.instances.push(gpu_instance(scene, instance, drawn.emission(index), variants[index].mirrored));
             draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));
             if is_hidden(index) {
                 continue;
@@ -151,14 +150,12 @@ impl Draws {
     }
 }
 
-fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>, mirrored: bool) -> GpuInstance {
-    let material_index = scene.meshes[instance.mesh].material;
-    let material = &scene.materials[material_index];
+fn gpu_instance(scene: &Scene, instance: &Instance, emission: Vec3, mirrored: bool) -> GpuInstance {
     GpuInstance {
         world_from_mesh: instance.world_from_mesh,
         normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
-        emission: light.map_or(material.emission, Light::emission),
-        material: material_index as u32,
+        emission,
+        material: scene.meshes[instance.mesh].material as u32,
         handedness: if mirrored { -1.0 } else { 1.0 },
         padding: [0; 3],
     }

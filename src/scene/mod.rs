@@ -5,6 +5,7 @@
 mod bounds;
 mod camera;
 mod convex_parts;
+mod drawn;
 mod emission;
 mod emitter;
 mod error;
@@ -28,6 +29,7 @@ use glam::Vec3;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
+pub use drawn::DrawnInstances;
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
 pub use material::{AlphaMode, Material, Sheen, TextureSlot};

@@ -9,7 +9,7 @@ use super::ReferenceError;
 use super::texels::texel;
 use super::triangle::Triangle;
 use crate::reference::bvh::{Bvh, Meeting, Ray};
-use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
+use crate::scene::{AlphaMode, DrawnInstances, Instance, Material, Mesh, Scene, Settings, TextureSlot};
 
 /// Most triangles of all instances together: some 120 bytes each.
 const TRIANGLES_MAX: usize = 1 << 25;
@@ -49,24 +49,19 @@ pub(super) struct Hit {
 
 impl<'a> World<'a> {
     pub fn new(scene: &'a Scene, settings: &Settings) -> Result<Self, ReferenceError> {
-        let mut lights = vec![None; scene.instances.len()];
-        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        let is_drawn = |index: usize| lights[index].is_none() || settings.lights_visible;
-        let drawn: Vec<usize> = (0..scene.instances.len()).filter(|&index| is_drawn(index)).collect();
+        let instances = DrawnInstances::new(scene, settings);
+        let drawn: Vec<usize> = (0..scene.instances.len()).filter(|&index| instances.is_drawn(index)).collect();
         let count = |&index: &usize| scene.meshes[scene.instances[index].mesh].indices.len() / 3;
         let triangles: usize = drawn.iter().map(count).sum();
         if triangles > TRIANGLES_MAX {
             return Err(ReferenceError::Triangles { triangles, most: TRIANGLES_MAX });
         }
-        let place = |(index, instance): (usize, &crate::scene::Instance)| {
-            let material = &scene.materials[scene.meshes[instance.mesh].material];
-            Place {
-                world_from_mesh: instance.world_from_mesh.as_dmat4(),
-                world_from_normal: instance.world_from_normal().as_dmat3(),
-                mirrors: instance.mirrors(),
-                emission: lights[index].map_or(material.emission, |light| light.emission()).as_dvec3(),
-                is_light: lights[index].is_some(),
-            }
+        let place = |(index, instance): (usize, &Instance)| Place {
+            world_from_mesh: instance.world_from_mesh.as_dmat4(),
+            world_from_normal: instance.world_from_normal().as_dmat3(),
+            mirrors: instance.mirrors(),
+            emission: instances.emission(index).as_dvec3(),
+            is_light: instances.light(index).is_some(),
         };
         let places: Vec<Place> = scene.instances.iter().enumerate().map(place).collect();
         let of_instance = |&index: &usize| {

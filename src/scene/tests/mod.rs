@@ -1,5 +1,6 @@
 //! Lights, views and settings of scenes made in memory.
 
+mod drawn;
 mod emission;
 mod islands;
 mod settings;
