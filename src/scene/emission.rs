@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::{Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
+use super::{Filter, Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
 
 /// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
 const TEXELS: f64 = (1 << 20) as f64;
@@ -43,9 +43,10 @@ pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
     // Points for all of the image's area. Where there is one texel, or no area, one point a triangle will do.
     let density = (POINTS * level.texels.len() as f64).max(POINTS_MIN / spans);
     let density = if level.texels.len() > 1 && density.is_finite() { density } else { 0.0 };
-    let mean = |triangle: &[u32; 3]| {
-        level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, texture.sampler)
-    };
+    // Points are few beside the filter's steps: bilinear lookups tell more, whatever the sampler says, and their mean is the same.
+    let sampler = Sampler { magnify: Filter::Linear, ..texture.sampler };
+    let mean =
+        |triangle: &[u32; 3]| level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, sampler);
     let weighted = |triangle: &[u32; 3]| {
         let area = area(mesh, instance.world_from_mesh, triangle);
         (area * mean(triangle), area)
@@ -100,24 +101,11 @@ impl Level {
                 // The unit square's upper half, folded onto the lower.
                 let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
                 let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
-                self.at(a + at.x * (b - a) + at.y * (c - a), sampler).as_dvec3()
+                let uv = a + at.x * (b - a) + at.y * (c - a);
+                let size = [self.width as u32, self.height as u32];
+                sampler.magnified(size, uv, |at| self.texels[at].as_dvec3())
             })
             .sum();
         sum / f64::from(points)
-    }
-
-    /// Bilinear.
-    fn at(&self, uv: DVec2, sampler: Sampler) -> Vec3 {
-        let place = uv * DVec2::new(self.width as f64, self.height as f64) - 0.5;
-        // Further away there are no fractions left; what is not finite is anywhere.
-        let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
-        let (corner, fraction) = (place.floor(), (place - place.floor()).as_vec2());
-        let [columns, rows] = [(corner.x, self.width, 0), (corner.y, self.height, 1)]
-            .map(|(at, side, axis)| [at as i64, at as i64 + 1].map(|at| sampler.wrap[axis].texel(at, side as i64)));
-        let row = |y: usize| {
-            let [left, right] = columns.map(|x| self.texels[y * self.width + x]);
-            left.lerp(right, fraction.x)
-        };
-        row(rows[0]).lerp(row(rows[1]), fraction.y)
     }
 }

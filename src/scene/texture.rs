@@ -1,4 +1,6 @@
-use glam::Affine2;
+use std::ops::{Add, Mul};
+
+use glam::{Affine2, DVec2};
 
 /// A decoded picture: 8 bits a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,6 +40,26 @@ impl Sampler {
         minify: Filter::Linear,
         mipmaps: Some(Filter::Linear),
     };
+
+    /// What an image of this size shows at (u, v) as it is magnified, in `f64`. `texel` gives the texel at an index, in rows from
+    /// the top; that of column i and row j has its centre at ((i + 0.5) / width, (j + 0.5) / height).
+    ///
+    /// Coordinates that are not finite, or so far away that they have no fractions left (10^15 texels), show the first texel.
+    pub fn magnified<T>(&self, [width, height]: [u32; 2], uv: DVec2, texel: impl Fn(usize) -> T) -> T
+    where
+        T: Add<Output = T> + Mul<f64, Output = T>,
+    {
+        let place = uv * DVec2::new(width.into(), height.into()) - 0.5;
+        let place = if place.abs().cmplt(DVec2::splat(1e15)).all() { place } else { DVec2::ZERO };
+        let place = if self.magnify == Filter::Nearest { place.round() } else { place };
+        let (corner, fraction) = (place.floor(), place - place.floor());
+        let along =
+            |axis: usize, side: u32| [0, 1].map(|step| self.wrap[axis].texel(corner[axis] as i64 + step, side.into()));
+        let (columns, rows) = (along(0, width), along(1, height));
+        let mix = |[first, second]: [T; 2], share: f64| first * (1.0 - share) + second * share;
+        let row = |row: usize| mix(columns.map(|column| texel(row * width as usize + column)), fraction.x);
+        mix(rows.map(row), fraction.y)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -6,4 +6,5 @@ mod islands;
 mod settings;
 pub mod shapes;
 mod tangents;
+mod textures;
 mod views;
