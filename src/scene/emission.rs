@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
+use super::mipmap::halved;
 use super::{Filter, Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
 
 /// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
@@ -35,7 +36,7 @@ pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
         let area = 0.5 * (b - a).perp_dot(c - a).abs();
         if area.is_finite() { area } else { f64::MAX.sqrt() }
     };
-    let mut level = Level::new(&scene.images[texture.image]);
+    let mut level = Linear::new(&scene.images[texture.image]);
     let spans: f64 = triangles.par_iter().map(span).sum();
     while level.texels.len() > 1 && spans * level.texels.len() as f64 > TEXELS {
         level = level.halved();
@@ -65,30 +66,23 @@ fn area(mesh: &Mesh, world_from_mesh: Mat4, triangle: &[u32; 3]) -> f64 {
     (b - a).cross(c - a).length()
 }
 
-/// A linear image.
-struct Level {
-    width: usize,
-    height: usize,
+/// An image in linear light.
+struct Linear {
+    size: [u32; 2],
     texels: Vec<Vec3>,
 }
 
-impl Level {
+impl Linear {
     fn new(image: &Image) -> Self {
         let linear: Vec<f32> = (0..=255).map(linear_from_srgb).collect();
         let texel = |&[red, green, blue, _]: &[u8; 4]| Vec3::from([red, green, blue].map(|code| linear[code as usize]));
-        let texels = image.texels.iter().map(texel).collect();
-        Self { width: image.width as usize, height: image.height as usize, texels }
+        Self { size: [image.width, image.height], texels: image.texels.iter().map(texel).collect() }
     }
 
-    /// The next mipmap. The last of an odd row or column counts twice.
+    /// The next mipmap.
     fn halved(&self) -> Self {
-        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
-        let at = |x: usize, y: usize| self.texels[y.min(self.height - 1) * self.width + x.min(self.width - 1)];
-        let mean = |(x, y): (usize, usize)| {
-            0.25 * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1))
-        };
-        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        Self { width, height, texels: places.map(mean).collect() }
+        let (size, texels) = halved(self.size, |at| self.texels[at], |mean| mean);
+        Self { size, texels }
     }
 
     /// The mean over a triangle, at as many points.
@@ -102,8 +96,7 @@ impl Level {
                 let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
                 let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
                 let uv = a + at.x * (b - a) + at.y * (c - a);
-                let size = [self.width as u32, self.height as u32];
-                sampler.magnified(size, uv, |at| self.texels[at].as_dvec3())
+                sampler.magnified(self.size, uv, |at| self.texels[at].as_dvec3())
             })
             .sum();
         sum / f64::from(points)

@@ -16,6 +16,7 @@ mod light;
 mod lights;
 mod material;
 mod mesh;
+mod mipmap;
 mod notices;
 mod outline;
 mod rig;
@@ -34,6 +35,7 @@ pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
 pub use material::{AlphaMode, Material, Sheen, TextureSlot};
 pub use mesh::{Instance, Mesh};
+pub use mipmap::{Encoding, Level};
 pub use settings::{Layering, Lobes, Overrides, RoughnessMap, Settings, SheenLook, SheenModel};
 pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from_srgb};
 
