@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 /// The kinds of picture files that are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
+    /// Shown values: sRGB, 8 bits a channel.
     Png,
+    /// Linear radiance: OpenEXR, 32-bit floats.
     Exr,
 }
 
 impl Format {
-    /// By the file name's extension, case does not count.
+    /// The format that the file name's extension names, whether in capitals or not; an error where it names neither.
     pub fn of(path: &Path) -> Result<Self, WriteError> {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         match extension.to_ascii_lowercase().as_str() {

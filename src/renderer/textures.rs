@@ -10,13 +10,14 @@ use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView}
 use super::materials::transforms;
 use crate::scene::{Encoding, Filter, Image, Level, Material, Sampler, Scene, TextureSlot, Wrap};
 
-/// Most samples of a filter along the axis on which a texture is seen at a slant.
+/// The most samples that a filter takes along the axis in which a texture is foreshortened.
 const ANISOTROPY: u16 = 8;
 
-/// Where the transforms of the texture coordinates are bound.
+/// The binding of the texture coordinates' transforms.
 const TRANSFORMS: u32 = 2 * TextureSlot::COUNT as u32;
 
-/// Group 1 of the surfaces' pass: a texture for each slot, a sampler for each, and the transforms of their coordinates.
+/// Group 1 of the surfaces' pass: for each slot a texture, for each a sampler, then the transforms of their
+/// coordinates.
 pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, BufferBindingType, SamplerBindingType, TextureSampleType, TextureViewDimension};
     let texture = BindingType::Texture {
@@ -38,7 +39,7 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
 }
 
-/// The bind groups of the materials that have textures, by their indices, and one of white textures for the others.
+/// The bind groups of the materials that have textures, by their indices, and one with white textures for the others.
 pub(super) fn bind_groups(
     (device, queue): (&Device, &Queue),
     layout: &BindGroupLayout,
@@ -54,13 +55,13 @@ fn is_textured(material: &Material) -> bool {
     material.textures.iter().any(Option::is_some)
 }
 
-/// Textures and samplers that were made, each once.
+/// The textures and samplers made so far, none of them twice.
 struct Pool<'a> {
     device: &'a Device,
     queue: &'a Queue,
     scene: &'a Scene,
     white: TextureView,
-    /// By image and what its texels are.
+    /// By image and encoding.
     textures: HashMap<(usize, Encoding), TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
 }
@@ -133,14 +134,14 @@ fn make_sampler(device: &Device, sampler: &Sampler) -> wgpu::Sampler {
         mag_filter: filter(sampler.magnify),
         min_filter: filter(sampler.minify),
         mipmap_filter,
-        // 0 would leave only the magnifying filter.
+        // 0 would leave the magnifying filter as the only one.
         lod_max_clamp: if sampler.mipmaps.is_some() { 32.0 } else { 0.25 },
         anisotropy_clamp: if is_smooth { ANISOTROPY } else { 1 },
         ..Default::default()
     })
 }
 
-/// The image with all its mipmaps; those larger than the device takes are left out.
+/// The image with all its mipmaps, without the sizes that are too large for the device.
 fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let mut base = Level { size: [image.width, image.height], texels: Cow::Borrowed(&image.texels) };
@@ -170,12 +171,12 @@ fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> 
         queue.write_texture(target, level.texels.as_flattened(), layout, extent(level.size));
         level = level.halved(encoding);
     }
-    // What was staged is let go texture by texture.
+    // Frees what was staged after each texture.
     queue.submit([]);
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// The device's name of an encoding.
+/// The device's format for an encoding.
 fn format(encoding: Encoding) -> wgpu::TextureFormat {
     match encoding {
         Encoding::Colors => wgpu::TextureFormat::Rgba8UnormSrgb,

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::{Light, Scene, Settings};
 
-/// A scene's instances as settings draw them. Emitters and lights belong together: an emitter is hidden with the lights, and
-/// its surface glows as its light says, whatever has become of that light since the scene was loaded.
+/// A scene's instances as settings draw them. Emitters and lights belong together: an emitter is hidden with the
+/// lights, and its surface glows as its light says, whatever has become of that light since the scene was loaded.
 pub struct DrawnInstances<'a> {
     scene: &'a Scene,
     /// By instance.
@@ -31,8 +31,8 @@ impl<'a> DrawnInstances<'a> {
         self.lights_visible || self.light(instance).is_none()
     }
 
-    /// The radiance that the surface of the instance of this index emits where its emissive texture is white: its light's, else its
-    /// material's. Linear Rec. 709, >= 0.
+    /// The radiance that the surface of the instance of this index emits where its emissive texture is white: its
+    /// light's, else its material's. Linear Rec. 709, >= 0.
     pub fn emission(&self, instance: usize) -> Vec3 {
         let material = self.scene.meshes[self.scene.instances[instance].mesh].material;
         self.light(instance).map_or(self.scene.materials[material].emission, Light::emission)

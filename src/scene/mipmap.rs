@@ -16,8 +16,8 @@ pub enum Encoding {
     Colors,
     /// Four numbers: means are of them as they are.
     Numbers,
-    /// Unit normals, taken from [0, 255] to [-1, 1]: of a mean the direction is kept. Its length l, which says how much the normals
-    /// differ, goes into alpha as 1 - sqrt(1 - l); where nothing has been averaged alpha is 255.
+    /// Unit normals, taken from [0, 255] to [-1, 1]: of a mean the direction is kept. Its length l, which says how much
+    /// the normals differ, goes into alpha as 1 - sqrt(1 - l); where nothing has been averaged alpha is 255.
     Normals,
 }
 
@@ -78,7 +78,8 @@ pub struct Level<'a> {
 }
 
 impl Level<'_> {
-    /// The next mipmap, as [`halved`] takes means.
+    /// The next mipmap: half the size, rounded down but at least 1 texel a side, each texel the mean of the area that it
+    /// covers.
     pub fn halved(&self, encoding: Encoding) -> Level<'static> {
         let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as u8));
         let addend = |at: usize| encoding.addend(self.texels[at], &linear);
@@ -92,8 +93,8 @@ pub(super) fn half_of(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| (side / 2).max(1))
 }
 
-/// An image of [`half_of`] the size: each of its texels is made, by `encode`, of the mean of `linear` over the area that it covers.
-/// `linear` is asked for texels by their index, in rows from the top.
+/// An image of [`half_of`] the size: each of its texels is made, by `encode`, of the mean of `linear` over the area
+/// that it covers. `linear` is asked for texels by their index, in rows from the top.
 pub(super) fn halved<L, T>(
     size: [u32; 2],
     linear: impl Fn(usize) -> L + Sync,

@@ -1,4 +1,5 @@
-//! Textures looked up in `f64`: bilinear in the full image, no mipmaps: pixels that see many texels average them by their samples.
+//! Textures looked up in `f64`, in the full image, without mipmaps: a pixel that sees many texels averages them by its
+//! samples.
 
 use std::sync::LazyLock;
 
@@ -9,7 +10,8 @@ use crate::scene::{Image, Sampler, linear_from_srgb};
 /// Linear light of the sRGB codes.
 static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as u8).into()));
 
-/// A texture's red, green, blue, alpha at (u, v), filtered as where it is magnified; `is_color` where the first three are sRGB.
+/// A texture's red, green, blue and alpha at (u, v), filtered as where it is magnified, each in [0, 1]. `is_color` says
+/// that the first three are stored in sRGB; they come out linear.
 pub(super) fn texel(image: &Image, sampler: Sampler, is_color: bool, uv: DVec2) -> DVec4 {
     sampler.magnified([image.width, image.height], uv, |at| decoded(image.texels[at], is_color))
 }

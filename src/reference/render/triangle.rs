@@ -4,18 +4,18 @@ use glam::DVec3;
 
 use crate::reference::bvh::{Primitive, Ray};
 
-/// How far outside an edge, in weights of its corners, a ray still meets a triangle: neighbours leave no gap.
+/// How far outside an edge a ray still meets a triangle, in weights of the corners, so that neighbours leave no gap.
 const EDGE: f64 = 1e-12;
 
 /// A triangle of an instance.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
     corner: DVec3,
-    /// From the first corner to the second and to the third.
+    /// From the first corner to the second, and to the third.
     edges: [DVec3; 2],
     /// Index into `Scene::instances`.
     pub instance: u32,
-    /// Which of its mesh's triangles.
+    /// Which of its mesh's triangles it is.
     pub index: u32,
 }
 
@@ -24,7 +24,7 @@ impl Triangle {
         Self { corner: a, edges: [b - a, c - a], instance, index }
     }
 
-    /// The face's normal by winding, times twice the area.
+    /// The face's normal by winding, twice the area long.
     pub fn face(&self) -> DVec3 {
         self.edges[0].cross(self.edges[1])
     }

@@ -15,29 +15,29 @@ use crate::scene::mipmap::half_of;
 use crate::scene::notices::Notices;
 use crate::scene::{Encoding, Image, Level};
 
-/// Images with a longer side than this are refused before memory is asked for.
+/// The longest side of an image in texels: longer ones are refused before memory is asked for.
 const SIDE_MAX: u32 = 1 << 14;
-/// Longer sides than this are halved: what every device has room for.
+/// The longest side that is kept, which every device has room for: images with longer ones are halved.
 const KEPT_SIDE_MAX: u32 = 1 << 13;
-/// The most texels that all images have together: 1 GiB.
+/// The most texels that all images are kept with together: 1 GiB.
 const TEXELS_MAX: u64 = 1 << 28;
-/// The most that a decoder may ask for: the largest image in 16 bits a channel.
+/// The most bytes that a decoder may ask for: those of the largest image with 16 bits a channel.
 const DECODER_BYTES_MAX: u64 = 8 * (SIDE_MAX as u64) * (SIDE_MAX as u64);
 
-/// What the bytes of images come from.
+/// Where the bytes of images come from.
 pub struct Sources<'a> {
     pub root: &'a Root,
     pub buffers: &'a [Bytes<'a>],
-    /// Where the files stand that images name; without one there are none.
+    /// The folder of the files that images name; without it, none are read.
     pub folder: Option<&'a Path>,
 }
 
-/// An image of the file that is asked for.
+/// An image of the file that is to be read.
 pub struct Wanted {
     /// Index into the file's images.
     pub index: usize,
-    /// Whether a material reads colours in it, in sRGB: they are reduced as such. All else is plain numbers, normals too, as shading
-    /// makes unit what it looks up, and the fourth channel everywhere.
+    /// Whether a material reads colours in it, in sRGB: they are reduced as such. All else is plain numbers, normals
+    /// too, as shading makes unit what it looks up, and the fourth channel everywhere.
     pub is_color: bool,
 }
 
@@ -59,7 +59,7 @@ impl Encoded<'_> {
     }
 }
 
-/// Decodes these of the file's images, in this order.
+/// Decodes these of the file's images, and gives them in this order.
 pub fn read(sources: &Sources, wanted: &[Wanted], notices: &mut Notices) -> Result<Vec<Image>, Fault> {
     let mut files = buffers::Files::new();
     let mut fetch = |wanted: &Wanted| {
@@ -72,7 +72,7 @@ pub fn read(sources: &Sources, wanted: &[Wanted], notices: &mut Notices) -> Resu
     for image in heads.iter().filter(|image| image.is_large()) {
         notices.add("images of more than 8192 texels a side are reduced", || image.place.clone());
     }
-    // Large ones one after the other: each takes several times as much while it is decoded.
+    // Large ones one after the other: while one is decoded, it takes several times the memory that it keeps.
     let decode_some =
         |large: bool| move |image: &Encoded| if image.is_large() == large { decode(image).map(Some) } else { Ok(None) };
     let large = heads.iter().map(decode_some(true)).collect::<Result<Vec<_>, _>>()?;
@@ -109,7 +109,7 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// Format and size, by the bytes alone: what a file says of its images is often wrong.
+/// An image's format and size, by its bytes alone: what a file says of its images is often wrong.
 fn head<'a>(sources: &Sources, &Wanted { index, is_color }: &Wanted, bytes: &'a [u8]) -> Result<Encoded<'a>, Fault> {
     let place = sources.label(index);
     let (format, size) = format_and_size(bytes).map_err(|what| Fault::at(&place, what))?;
@@ -161,7 +161,7 @@ fn decode(encoded: &Encoded) -> Result<Image, Fault> {
     Ok(Image { name: encoded.name.clone(), width, height, texels: level.texels.into_owned() })
 }
 
-/// What is left of an image's size when its sides are halved until they may be kept.
+/// An image's size after it has been halved until no side is too long to be kept.
 fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     match width.max(height) > KEPT_SIDE_MAX {
         true => kept_size(half_of([width, height])),
@@ -169,7 +169,7 @@ fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// Whether a JPEG file's end is there: its decoder fills what is missing with grey.
+/// Whether a JPEG file's end is there: the decoder fills what is missing with grey.
 fn jpeg_ends(bytes: &[u8]) -> bool {
     // Zeros, restart markers and fill bytes after 0xff stand within the data.
     let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 1 | 0xd0..=0xd8 | 0xff);
@@ -178,7 +178,7 @@ fn jpeg_ends(bytes: &[u8]) -> bool {
         if rest[at + 1] == 0xd9 {
             return true;
         }
-        // A segment, with its length: thumbnails in it have ends of their own.
+        // A segment is skipped by its length: thumbnails in it have ends of their own.
         let length =
             rest.get(at + 2..at + 4).map_or(usize::MAX, |length| usize::from(length[0]) << 8 | usize::from(length[1]));
         rest = rest.get(at.saturating_add(2).saturating_add(length)..).unwrap_or_default();

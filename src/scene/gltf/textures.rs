@@ -1,4 +1,4 @@
-//! Textures: samplers, and which image each one shows.
+//! Textures: their samplers, and which image each of them shows.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
@@ -18,14 +18,14 @@ use crate::scene::{Filter, Material, Sampler, Scene, Texture, TextureSlot, Textu
 
 const WEBP: &str = "EXT_texture_webp";
 
-/// EXT_texture_webp as the JSON has it.
+/// EXT_texture_webp as the JSON holds it.
 #[derive(Deserialize)]
 struct Webp {
     source: u64,
 }
 
-/// Reads the textures that the scene's materials use, with their images, and makes the materials name the scene's textures
-/// in place of the file's. Those without an image that can be read are left out.
+/// Reads the textures that the scene's materials use, with their images, and makes the materials name the scene's
+/// textures in place of the file's. Those without an image that can be read are left out.
 pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
     let samplers = samplers(root)?;
     // The scene's index of each texture that is used, and of each image.
@@ -61,7 +61,7 @@ fn used(materials: &[Material]) -> BTreeMap<usize, bool> {
     used
 }
 
-/// Different things, numbered as they come.
+/// Different things, numbered in the order in which they come.
 struct Numbered<T> {
     things: Vec<T>,
     numbers: HashMap<T, usize>,
@@ -80,7 +80,7 @@ impl<T: Copy + Eq + Hash> Numbered<T> {
     }
 }
 
-/// The image that a texture shows, if there is one that can be read.
+/// The index of the image that a texture shows, if there is one that can be read.
 fn image(root: &Root, index: usize, notices: &mut Notices) -> Result<Option<usize>, Fault> {
     let texture = &root.textures[index];
     let place = || texture_label(root, index);
@@ -106,11 +106,13 @@ fn webp_source(webp: &Value, images: usize) -> Result<usize, String> {
     found.ok_or_else(|| format!("{WEBP}: there is no image {source}; export the file again"))
 }
 
-/// Where the source is missing, an index that no file can have stands in its place.
+/// Whether a texture has a source. Where it has none, the JSON's type holds an index in its place that no file can
+/// have.
 pub fn has_source(texture: &JsonTexture) -> bool {
     texture.source.value() != u32::MAX as usize
 }
 
+/// `texture 3 "grain"`.
 pub fn texture_label(root: &Root, index: usize) -> String {
     label("texture", index, root.textures.get(index).and_then(|texture| texture.name.as_deref()))
 }
