@@ -23,7 +23,7 @@ const PADDING: f32 = 2e-6 * SPAN as f32;
 /// How far behind a hit boxes are still looked into: this share of its distance, and of half the scene's size.
 const BEHIND: f64 = 1e-5;
 
-/// How far outside an edge, in weights of its corners, a ray still meets a triangle: neighbours leave no gap.
+/// How far outside an edge a ray still meets a triangle, in weights of the corners, so that neighbours leave no gap.
 const EDGE: f64 = 1e-12;
 
 /// A half line.
@@ -200,11 +200,11 @@ impl<P: Primitive> Bvh<P> {
 #[derive(Clone, Debug)]
 pub struct Triangle {
     corner: DVec3,
-    /// From the first corner to the second and to the third.
+    /// From the first corner to the second, and to the third.
     edges: [DVec3; 2],
     /// Index into [`Scene::instances`](crate::scene::Scene::instances).
     pub instance: u32,
-    /// Which of its mesh's triangles.
+    /// Which of its mesh's triangles it is.
     pub index: u32,
 }
 
@@ -214,7 +214,7 @@ impl Triangle {
         Self { corner: a, edges: [b - a, c - a], instance, index }
     }
 
-    /// The face's normal by winding, times twice the area.
+    /// The face's normal by winding, twice the area long.
     pub fn face(&self) -> DVec3 {
         self.edges[0].cross(self.edges[1])
     }

@@ -1,26 +1,30 @@
 use super::Picture;
 
-/// How far a picture is from a reference, over all pixels and channels, in the pictures' own values: linear radiance of two
-/// .exr, shown values in [0, 1] of two .png. Sums are in `f64`.
+/// How far a picture is from a reference, over all pixels and channels. Values are the pictures' own: linear radiance
+/// for two .exr, shown values in [0, 1] for two .png. Sums are in `f64`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
     /// Mean of |test - reference|.
     pub mean_absolute: f64,
-    /// Mean of |test - reference| over the mean of |reference|: 0 for equal pictures, none where only the reference is black.
+    /// Mean of |test - reference| over the mean of |reference|: 0 for equal pictures, `None` where only the
+    /// reference is black.
     pub relative_mean_absolute: Option<f64>,
     /// Mean of test - reference, the bias: positive where the test is too bright.
     pub mean: f64,
+    /// Where |test - reference| is greatest.
     pub largest: LargestDifference,
 }
 
-/// Where |test - reference| is greatest, the first such channel in rows from the top.
+/// The channel of a pixel where |test - reference| is greatest; the first such one, in rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDifference {
-    /// Pixels from the left, rows from the top.
+    /// Pixels from the left, and rows from the top, both counted from 0.
     pub at: [u32; 2],
-    /// 0 is red, 1 green, 2 blue.
+    /// 0 for red, 1 for green, 2 for blue.
     pub channel: usize,
+    /// The test's value there.
     pub test: f32,
+    /// The reference's value there.
     pub reference: f32,
 }
 
@@ -32,7 +36,7 @@ impl LargestDifference {
 }
 
 impl Differences {
-    /// Of two pictures of one kind and size, all of whose numbers are finite.
+    /// Compares two pictures of the same kind and size, all of whose numbers are finite; panics where they are not.
     pub fn between(test: &Picture, reference: &Picture) -> Self {
         test.assert_comparable(reference);
         let mut largest =

@@ -6,42 +6,48 @@ use rayon::prelude::*;
 
 use super::{DisplayImage, Format, Picture, srgb_from_linear};
 
-/// Rows around a pixel that its FLIP depends on: the radius of the widest filter at [`DEFAULT_PIXELS_PER_DEGREE`].
+/// Rows above and below a pixel on which its FLIP depends: the radius of the widest filter at
+/// [`DEFAULT_PIXELS_PER_DEGREE`].
 const HALO: u32 = 10;
-/// Pixels that are worked on at a time: bounds the memory, some 150 bytes each.
+/// Pixels that are worked on at a time, which limits the memory: each takes about 150 bytes.
 const STRIP_PIXELS: u32 = 1 << 17;
-/// A strip is not made thinner than this, or its halo would cost more than itself.
+/// The least rows of a strip: in a thinner one, the halo would cost more than the strip itself.
 const STRIP_ROWS: u32 = 20;
-/// Most exposures of HDR-FLIP: past as many stops they are taken farther apart.
+/// The most exposures of HDR-FLIP: over more stops than this, they are taken farther apart.
 const MOST_EXPOSURES: u32 = 32;
 
-/// FLIP of each pixel, the difference that a person sees who flips between test and reference: 0 none, 1 the greatest
-/// (Andersson et al. 2020, doi:10.1145/3406183), at 67 pixels a degree of visual angle (a screen 0.7 m wide of 3840 pixels,
-/// seen from 0.7 m; the published default).
+/// FLIP of each pixel: the difference that a person sees who flips between test and reference, from 0, none, to 1, the
+/// greatest (Andersson et al. 2020, doi:10.1145/3406183), at 67 pixels a degree of visual angle (a screen 0.7 m wide of
+/// 3840 pixels, seen from 0.7 m; the published default).
 ///
-/// Two .png: LDR-FLIP of the shown values. Two .exr: HDR-FLIP (Andersson et al. 2021, doi:10.2312/egs.20211015): each pixel's
-/// greatest LDR-FLIP over [`Exposures`], each through the ACES tone curve that is published with it, clamped, in sRGB.
-/// Either is taken of values rounded to 8 bits a channel, as the crate `nv-flip` takes them: means of HDR-FLIP come out
-/// within 0.003 of those of NVIDIA's program, which doesn't round, and what is less than half a step of 8 bits at every
-/// exposure is not seen.
+/// Two .png: LDR-FLIP of the shown values. Two .exr: HDR-FLIP (Andersson et al. 2021, doi:10.2312/egs.20211015): each
+/// pixel's greatest LDR-FLIP over [`Exposures`], each through the ACES tone curve that is published with it, clamped,
+/// in sRGB. Both work on values rounded to 8 bits a channel, because the crate `nv-flip` does: means of HDR-FLIP come
+/// out within 0.003 of those of NVIDIA's program, which does not round, and differences of less than half a step of 8
+/// bits at every exposure are not seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlipMap {
+    /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` numbers in [0, 1], rows from the top.
     pub errors: Vec<f32>,
-    /// Those of HDR-FLIP.
+    /// The exposures of HDR-FLIP; `None` for LDR-FLIP.
     pub exposures: Option<Exposures>,
 }
 
-/// Exposures at even steps, radiance is multiplied by 2 to their power. From that which shows the reference's greatest
-/// luminance at 0.85 to that which does so with its median; as many as there are stops between, 2 at least and 32 at most.
-/// The median is over pixels brighter than black, so that a black background does not count. Where all of the reference is
-/// black, the test's luminances serve.
+/// Exposures in stops, at even steps; radiance is multiplied by 2 to their power. They go from the exposure that shows
+/// the reference's greatest luminance at 0.85 to the one that shows its median there. There are as many as there are
+/// stops between the two, but at least 2 and at most 32. The median is over pixels brighter than black, so that a black
+/// background does not count. Where all of the reference is black, the test's luminances are used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exposures {
+    /// The exposure of the darkest picture.
     pub first: f64,
+    /// The exposure of the brightest picture.
     pub last: f64,
+    /// How many there are, both ends among them.
     pub count: u32,
 }
 
@@ -58,7 +64,7 @@ impl Exposures {
         Self { first, last, count: ((last - first).ceil() as u32).clamp(2, MOST_EXPOSURES) }
     }
 
-    /// All of them, darkest picture first.
+    /// All of them, the darkest picture's first.
     pub fn stops(&self) -> impl Iterator<Item = f64> + use<> {
         let step = (self.last - self.first) / f64::from(self.count.max(2) - 1);
         let first = self.first;
@@ -75,8 +81,8 @@ fn luminances(picture: &Picture) -> Vec<f64> {
     picture.pixels.iter().map(luminance).filter(|luminance| *luminance > 0.0).collect()
 }
 
-/// Numerator and denominator of the tone curve that is published with HDR-FLIP, in powers of x from the square down: Narkowicz's
-/// (2015) fit of ACES, without its exposure of 0.6.
+/// Numerator and denominator of the tone curve published with HDR-FLIP, in powers of x from the square down:
+/// Narkowicz's (2015) fit of ACES, without its exposure of 0.6.
 const ACES: [[f64; 3]; 2] = [[0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0], [0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14]];
 
 /// Radiance to [0, 1].
@@ -95,7 +101,8 @@ fn aces_inverse(shown: f64) -> f64 {
 }
 
 impl FlipMap {
-    /// Of two pictures of one kind and size, all of whose numbers are finite. `step` is told of (done, all) steps.
+    /// Compares two pictures of the same kind and size, all of whose numbers are finite; panics where they are not.
+    /// Calls `step` with the number of steps done and of all steps, from any thread.
     pub fn between(test: &Picture, reference: &Picture, step: &(dyn Fn(usize, usize) + Sync)) -> Self {
         test.assert_comparable(reference);
         let exposures = match reference.format {
@@ -119,7 +126,7 @@ impl FlipMap {
         Self { width: test.width, height: test.height, errors: errors.concat(), exposures }
     }
 
-    /// The mean over the picture, FLIP's published figure for a picture.
+    /// The mean over the picture: the figure by which FLIP is published to compare pictures.
     pub fn mean(&self) -> f64 {
         self.errors.iter().map(|error| f64::from(*error)).sum::<f64>() / self.errors.len() as f64
     }
@@ -138,10 +145,10 @@ impl FlipMap {
     }
 }
 
-/// Rows that are worked on by themselves.
+/// Rows that are worked on independently.
 struct Strip {
     rows: Range<u32>,
-    /// The rows and those around them that they depend on.
+    /// These rows, and those around them on which they depend.
     seen: Range<u32>,
 }
 
@@ -156,7 +163,7 @@ impl Strip {
         (0..height).step_by(step as usize).map(one).collect()
     }
 
-    /// LDR-FLIP of these rows, in [0, 1]; at an exposure where the pictures are linear.
+    /// LDR-FLIP of these rows, in [0, 1]; where the pictures are linear, at the exposure `stop`.
     fn flip(&self, test: &Picture, reference: &Picture, stop: Option<f64>) -> Vec<f32> {
         let [shown_test, shown_reference] = [test, reference].map(|picture| {
             let shown = shown(&picture.pixels[range(picture.width, &self.seen)], stop);
@@ -164,7 +171,7 @@ impl Strip {
         });
         let errors = nv_flip::flip(shown_reference, shown_test, DEFAULT_PIXELS_PER_DEGREE).to_vec();
         let rows = self.rows.start - self.seen.start..self.rows.end - self.seen.start;
-        // Its powers may leave [0, 1] by a rounding.
+        // Rounding in its powers may leave [0, 1].
         errors[range(test.width, &rows)].iter().map(|error| error.clamp(0.0, 1.0)).collect()
     }
 }

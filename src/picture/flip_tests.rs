@@ -36,8 +36,8 @@ fn shifted(picture: &Picture) -> Picture {
     changed(picture, |index, _| picture.pixels[if index % width == 0 { index + width - 1 } else { index - 1 }])
 }
 
-/// The Hunt-adjusted colour (Andersson et al. 2020, section 4.1) of an sRGB colour, in `f64` by the textbook: Rec. 709's
-/// primaries, CIELAB of 1976.
+/// The Hunt-adjusted colour (Andersson et al. 2020, section 4.1) of an sRGB colour, in `f64` by the textbook: Rec.
+/// 709's primaries, CIELAB of 1976.
 fn hunt([red, green, blue]: [u8; 3]) -> [f64; 3] {
     let linear = |byte: u8| {
         let shown = f64::from(byte) / 255.0;
@@ -52,8 +52,8 @@ fn hunt([red, green, blue]: [u8; 3]) -> [f64; 3] {
     [lightness, 5.0 * lightness * (root(x) - root(y)), 2.0 * lightness * (root(y) - root(z))]
 }
 
-/// FLIP of one uniform colour against another: no filter changes them, there are no features, and what is left is their HyAB
-/// distance to the power of 0.7 over that of green and blue, by the two lines through (0.4, 0.95) (section 4.1).
+/// FLIP of one uniform colour against another: no filter changes them, there are no features, and what is left is their
+/// HyAB distance to the power of 0.7 over that of green and blue, by the two lines through (0.4, 0.95) (section 4.1).
 fn flip_of_colors(left: [u8; 3], right: [u8; 3]) -> f64 {
     let distance = |left, right| {
         let [left, right] = [hunt(left), hunt(right)];

@@ -11,7 +11,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// By the file name's extension, case does not count.
+    /// The format that the file name's extension names, whether in capitals or not; an error where it names neither.
     pub fn of(path: &Path) -> Result<Self, FormatError> {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         match extension.to_ascii_lowercase().as_str() {

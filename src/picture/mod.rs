@@ -1,5 +1,5 @@
-//! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB. And how two
-//! pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
+//! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB. And
+//! how two pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
 
 mod difference;
 #[cfg(feature = "cli")]
@@ -20,28 +20,32 @@ use std::io::Cursor;
 /// A picture in linear Rec. 709 radiance: rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearImage {
+    /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` triples.
     pub pixels: Vec<[f32; 3]>,
 }
 
-/// A picture as shown: sRGB, 8 bits, rows from the top.
+/// A picture as it is shown: sRGB, 8 bits a channel, rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DisplayImage {
+    /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` triples.
     pub pixels: Vec<[u8; 3]>,
 }
 
 impl LinearImage {
-    /// The bytes of an OpenEXR file of 32-bit floats, channels R, G, B.
+    /// The bytes of an OpenEXR file of 32-bit floats, with channels R, G and B.
     pub fn to_exr(&self) -> Result<Vec<u8>, FormatError> {
         encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb32F, Format::Exr)
     }
 
-    /// The picture as shown: radiance times `2^exposure`, through the tone curve, in sRGB.
+    /// The picture as it is shown: radiance times `2^exposure`, through the tone curve, in sRGB.
     pub fn display(&self, exposure: f32, tone: ToneCurve) -> DisplayImage {
         let gain = exposure.exp2();
         let show = |pixel: &[f32; 3]| {
@@ -58,7 +62,7 @@ impl DisplayImage {
         encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb8, Format::Png)
     }
 
-    /// Reads a PNG file.
+    /// Reads the bytes of a PNG file, reduced to 8 bits a channel; its alpha is ignored.
     pub fn from_png(bytes: &[u8]) -> Result<Self, image::ImageError> {
         let image = image::load_from_memory_with_format(bytes, image::ImageFormat::Png)?.into_rgb8();
         let (width, height) = image.dimensions();

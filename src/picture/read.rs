@@ -7,59 +7,116 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageResult, Limits};
 
 use super::{DisplayImage, Format, LinearImage};
 
-/// Most pixels along a side of a picture that is read.
+/// The most pixels along a side of a picture that is read.
 pub const MAX_SIDE: u32 = 16384;
-/// Most pixels of a picture that is read: 7680 x 4320 fits, and takes 400 MB.
+/// The most pixels of a picture that is read: 7680 x 4320 is within it, and takes 400 MB.
 pub const MAX_PIXELS: u64 = 1 << 25;
 
-/// A picture whose numbers mean what its kind of file says: linear radiance of a .exr, shown values in [0, 1] (sRGB) of a
-/// .png. Rows from the top, pixels from the left.
+/// A picture whose numbers mean what its kind of file says: linear radiance of a .exr, shown values in [0, 1] (sRGB) of
+/// a .png. Rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
+    /// The kind of its file, which says what its numbers mean.
     pub format: Format,
+    /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` triples.
     pub pixels: Vec<[f32; 3]>,
 }
 
-/// A picture could not be read, or not be compared.
+/// Why a picture could not be read, or two could not be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
+    /// The file's name ends neither in .png nor in .exr.
     #[error("{}: the extension says what is read: use .png or .exr", path.display())]
-    Extension { path: PathBuf },
+    Extension {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file cannot be opened.
     #[error("{}: cannot be opened ({source}): name a picture that is there", path.display())]
-    Open { path: PathBuf, source: std::io::Error },
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// What the path names is no file.
     #[error("{}: is no file: name a picture", path.display())]
-    NoFile { path: PathBuf },
+    NoFile {
+        /// What stands there instead, a folder perhaps.
+        path: PathBuf,
+    },
+    /// The file is broken, or is not of the kind that its name says.
     #[error("{}: cannot be read as {format} ({source}): make it anew", path.display())]
-    Decode { path: PathBuf, format: Format, source: ImageError },
+    Decode {
+        /// The file.
+        path: PathBuf,
+        /// What its extension says that it is.
+        format: Format,
+        /// What the decoder says.
+        source: ImageError,
+    },
+    /// The picture has more pixels than [`MAX_SIDE`] and [`MAX_PIXELS`] allow.
     #[error(
         "{}: {width}x{height} is too large: {MAX_SIDE} pixels a side and {MAX_PIXELS} in all are read; crop or scale it",
         path.display()
     )]
-    TooLarge { path: PathBuf, width: u32, height: u32 },
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// In pixels.
+        width: u32,
+        /// In pixels.
+        height: u32,
+    },
+    /// Some of the picture's numbers are infinite or not a number.
     #[error(
         "{}: {count} pixels are infinite or not a number, the first at {x},{y} from the top left: mend them, or render it anew",
         path.display()
     )]
-    NotFinite { path: PathBuf, count: usize, x: u32, y: u32 },
+    NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// How many pixels are not finite.
+        count: usize,
+        /// Where the first one is, in pixels from the left.
+        x: u32,
+        /// Where the first one is, in rows from the top.
+        y: u32,
+    },
+    /// One picture is linear radiance and the other is not.
     #[error(
         "{} is linear radiance and {} is as shown: compare two .exr or two .png",
         exr.display(), png.display()
     )]
-    Kinds { exr: PathBuf, png: PathBuf },
+    Kinds {
+        /// The one of linear radiance.
+        exr: PathBuf,
+        /// The one of shown values.
+        png: PathBuf,
+    },
+    /// The pictures differ in size.
     #[error(
         "{} is {}x{} and {} is {}x{}: give both the same size",
         first.display(), sizes[0][0], sizes[0][1], second.display(), sizes[1][0], sizes[1][1]
     )]
-    Sizes { first: PathBuf, second: PathBuf, sizes: [[u32; 2]; 2] },
+    Sizes {
+        /// The first file.
+        first: PathBuf,
+        /// The second file.
+        second: PathBuf,
+        /// Width and height of each, in pixels.
+        sizes: [[u32; 2]; 2],
+    },
 }
 
 impl Picture {
-    /// Reads a .png of 8 or 16 bits a channel or a .exr of halves or floats with channels R, G and B (of several layers the
-    /// first that has them). Alpha is left out. No memory is taken for a picture that is larger than [`MAX_SIDE`] and
-    /// [`MAX_PIXELS`] allow, and all numbers of a picture that is returned are finite.
+    /// Reads a .png of 8 or 16 bits a channel or a .exr of halves or floats with channels R, G and B (of several layers
+    /// the first that has them). Alpha is left out. No memory is taken for a picture that is larger than [`MAX_SIDE`]
+    /// and [`MAX_PIXELS`] allow, and all numbers of a picture that is returned are finite.
     pub fn load(path: &Path) -> Result<Self, ReadError> {
         let format = format_of(path)?;
         let open_error = |source| ReadError::Open { path: path.to_owned(), source };
@@ -70,7 +127,7 @@ impl Picture {
         let picture = match format {
             Format::Png => {
                 let image = decode(path, format, PngDecoder::with_limits(file, Limits::default()))?.into_rgb16();
-                // 8 bits are the 16 bits 257 times as large, so both are the same quotients.
+                // Values of 8 bits come as 257 times themselves, so the quotients are the same.
                 let shown = |channel| f32::from(channel) / f32::from(u16::MAX);
                 let (width, height) = image.dimensions();
                 Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0.map(shown)).collect() }
@@ -86,7 +143,7 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Reads two pictures that can be compared: of one kind and one size.
+    /// Reads two pictures, which must be of the same kind and size to be compared.
     pub fn load_pair(first: &Path, second: &Path) -> Result<[Self; 2], ReadError> {
         match [format_of(first)?, format_of(second)?] {
             [Format::Exr, Format::Png] => Err(ReadError::Kinds { exr: first.to_owned(), png: second.to_owned() }),
@@ -101,7 +158,7 @@ impl Picture {
         Ok(pair)
     }
 
-    /// Where a pixel stands, by its index: pixels from the left, rows from the top.
+    /// Where the pixel of an index is: pixels from the left, rows from the top.
     pub(super) fn place(&self, index: usize) -> [u32; 2] {
         [index as u32 % self.width, index as u32 / self.width]
     }
@@ -150,7 +207,7 @@ fn format_of(path: &Path) -> Result<Format, ReadError> {
     Format::of(path).map_err(|_| ReadError::Extension { path: path.to_owned() })
 }
 
-/// Sees to the size before memory is taken for the pixels.
+/// Checks the size before memory is taken for the pixels.
 fn decode(path: &Path, format: Format, decoder: ImageResult<impl ImageDecoder>) -> Result<DynamicImage, ReadError> {
     let error = |source| ReadError::Decode { path: path.to_owned(), format, source };
     let decoder = decoder.map_err(error)?;

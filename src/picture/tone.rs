@@ -3,15 +3,15 @@
 pub enum ToneCurve {
     /// Clamped to [0, 1].
     None,
-    /// Khronos PBR Neutral: base colours under neutral light come out as they are, highlights are compressed.
+    /// Khronos PBR Neutral: base colours in neutral light come out unchanged, highlights are compressed.
     #[default]
     Neutral,
-    /// AgX (T. Sobotka 2022) as in Blender 4: contrast as of film, bright colours go to white.
+    /// AgX (T. Sobotka 2022) as in Blender 4: the contrast is that of film, and bright colours go towards white.
     Agx,
 }
 
 impl ToneCurve {
-    /// Linear Rec. 709 in [0, infinity) to linear Rec. 709 in [0, 1].
+    /// Takes linear Rec. 709 in [0, infinity) to linear Rec. 709 in [0, 1].
     pub fn apply(self, color: [f32; 3]) -> [f32; 3] {
         match self {
             Self::None => color.map(|channel| channel.clamp(0.0, 1.0)),
@@ -21,13 +21,14 @@ impl ToneCurve {
     }
 }
 
-/// Khronos PBR Neutral Tone Mapper, specification of 2024: subtract Fresnel's F90 - F0 that a lit grey would carry,
-/// compress peaks above 0.8 hyperbolically, and desaturate them on the way.
+/// The Khronos PBR Neutral tone mapper (specification of 2024): subtracts the Fresnel reflection that a dielectric's
+/// surface adds to its base colour, 0.04 head on, compresses peaks above 0.8 hyperbolically, and desaturates these as
+/// it does.
 fn neutral(color: [f32; 3]) -> [f32; 3] {
     const FRESNEL: f32 = 0.04;
     const START_COMPRESSION: f32 = 0.8 - FRESNEL;
     const DESATURATION: f32 = 0.15;
-    // Past this a picture is white to the last bit; it also keeps infinities out of the quotients.
+    // Above this, a picture is white to the last bit. The limit also keeps infinities out of the quotients.
     let color = color.map(|channel| channel.clamp(0.0, 1e6));
     let least = color[0].min(color[1]).min(color[2]);
     let offset = if least < 2.0 * FRESNEL { least - least * least / (4.0 * FRESNEL) } else { FRESNEL };
@@ -42,9 +43,10 @@ fn neutral(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| channel * (new_peak / peak) * (1.0 - white) + new_peak * white)
 }
 
-/// Rows of the matrices of AgX. The first takes linear Rec. 709 to Rec. 2020 (ITU-R BT.2087) and moves the primaries inwards, so
-/// that bright colours meet white; the second moves them out again, in the picture's encoding; the third takes linear Rec. 2020
-/// back. Insets and outsets are those of Blender 4's OCIO configuration (as in Filament's ToneMapper and three.js).
+/// Rows of the matrices of AgX. The first takes linear Rec. 709 to Rec. 2020 (ITU-R BT.2087) and moves the primaries
+/// inwards, so that bright colours meet white; the second moves them out again, in the picture's encoding; the third
+/// takes linear Rec. 2020 back. Insets and outsets are those of Blender 4's OCIO configuration (as in Filament's
+/// ToneMapper and three.js).
 const AGX_INSET: [[f32; 3]; 3] =
     [[0.544_815, 0.373_787, 0.081_398], [0.140_417, 0.754_138, 0.105_445], [0.088_81, 0.178_872, 0.732_318]];
 const AGX_OUTSET: [[f32; 3]; 3] = [
@@ -55,14 +57,14 @@ const AGX_OUTSET: [[f32; 3]; 3] = [
 const REC709_FROM_REC2020: [[f32; 3]; 3] =
     [[1.660_491, -0.587_641, -0.072_85], [-0.124_55, 1.132_899, -0.008_349], [-0.018_151, -0.100_579, 1.118_73]];
 
-/// AgX's default look: log2 of the radiance from 12.47393 stops below 1 to 4.026069 above, a sigmoid curve (B. Wrensch's fit of
-/// sixth degree, whose mean squared error is 3.7e-6), which gives a picture encoded by a power of 2.2.
+/// AgX's default look: log2 of the radiance from 12.47393 stops below 1 to 4.026069 above, a sigmoid curve (B.
+/// Wrensch's fit of sixth degree, whose mean squared error is 3.7e-6), which gives a picture encoded by a power of 2.2.
 fn agx(color: [f32; 3]) -> [f32; 3] {
     const LOWEST: f32 = -12.473_93;
     const HIGHEST: f32 = 4.026_069;
     let color = times(&AGX_INSET, color.map(|channel| channel.clamp(0.0, 1e6)));
     let curve = |channel: f32| {
-        // Zero has no logarithm; what is less than 2^-20 is at the lowest end.
+        // Zero has no logarithm; anything below 2^-20 is at the lowest end anyway.
         let x = (channel.max(1e-6).log2().clamp(LOWEST, HIGHEST) - LOWEST) / (HIGHEST - LOWEST);
         let polynomial = [-0.00232, 0.1191, 0.4298, -6.868, 31.96, -40.14, 15.5];
         polynomial.into_iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
@@ -76,7 +78,8 @@ fn times(rows: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
     rows.map(|row| row[0] * x + row[1] * y + row[2] * z)
 }
 
-/// The sRGB transfer function (IEC 61966-2-1) on [0, 1]; what lies outside is clamped.
+/// The sRGB transfer function (IEC 61966-2-1): takes linear light to its encoded value, both in [0, 1]. What is outside
+/// is clamped.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
@@ -86,7 +89,8 @@ pub fn srgb_from_linear(linear: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// The specification's promise: a base colour of at least 0.04 + F0's share, lit to 1, comes out as the base colour.
+    /// The specification's promise: a base colour of at least 0.04 + F0's share, lit to 1, comes out as the base
+    /// colour.
     #[test]
     fn neutral_keeps_colours_below_the_shoulder() {
         for base in [0.1_f32, 0.3, 0.5, 0.7] {
@@ -101,7 +105,8 @@ mod tests {
         for step in 0..200_000 {
             let x = step as f32 * 1e-4;
             let [shown, ..] = neutral([x, x, x]);
-            // 1e-6: a few roundings of f32 where the pieces of the curve meet. Its steepest slope is 1, so a step is 1e-4.
+            // 1e-6: a few roundings of f32 where the pieces of the curve meet. Its steepest slope is 1, so a step is
+            // 1e-4.
             assert!(shown > last - 1e-6 && shown - last < 1.1e-4 && shown <= 1.0, "{x}: {last} {shown}");
             last = shown;
         }
@@ -133,8 +138,8 @@ mod tests {
 
     #[test]
     fn agx_at_known_points() {
-        // The curve's pivot: 0.18, ten stops above the lowest end, is the middle of the screen's scale. A bright saturated
-        // red goes towards white.
+        // The curve's pivot: 0.18, ten stops above the lowest end, is the middle of the screen's scale. A bright
+        // saturated red goes towards white.
         let [grey, ..] = agx([0.18; 3]).map(srgb_from_linear);
         assert!((grey - 0.5).abs() < 2e-3, "{grey}");
         let [red, green, blue] = agx([50.0, 0.0, 0.0]);

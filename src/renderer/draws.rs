@@ -1,4 +1,4 @@
-//! What is drawn, and in which order: instances sorted into batches, and those of a batch that a view sees.
+//! What is drawn, and in which order: instances sorted into batches, and which of a batch a view sees.
 
 use std::ops::Range;
 
@@ -7,14 +7,14 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::lights::LightKinds;
 use super::materials::Look;
-use crate::scene::{Bounds, Instance, Light, Mesh, Scene, Settings};
+use crate::scene::{Bounds, DrawnInstances, Instance, Mesh, Scene, Settings};
 
 /// `SurfacesInstance` of `surfaces.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuInstance {
     world_from_mesh: Mat4,
-    /// Columns of the matrix that takes normals to the world; up to a positive factor the inverse transpose.
+    /// Columns of the matrix that takes normals to the world: the inverse transpose, up to a positive factor.
     normal_from_mesh: [Vec4; 3],
     emission: Vec3,
     material: u32,
@@ -22,21 +22,21 @@ pub(super) struct GpuInstance {
     padding: [u32; 3],
 }
 
-/// What a pipeline is made for.
+/// What a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Variant {
     pub look: Look,
-    /// Which of [`Attributes`] the mesh has; none where they are not needed.
+    /// What the mesh's vertices have; nothing where it is not needed.
     pub attributes: Attributes,
     pub lights: LightKinds,
     /// The transform mirrors: front faces wind clockwise.
     pub mirrored: bool,
 }
 
-/// What vertices have beside position and normal.
+/// What vertices have besides position and normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Attributes {
-    /// Any of the others counts; what is missing is a constant.
+    /// Whether any of the others counts; those that are missing are constants.
     pub any: bool,
     pub tangents: bool,
     pub tex_coords: [bool; 2],
@@ -58,7 +58,7 @@ impl Variant {
     }
 }
 
-/// Instances of one mesh, drawn alike: `instances[range]`.
+/// Instances of one mesh that are drawn alike: `instances[range]`.
 pub(super) struct Batch {
     pub variant: Variant,
     pub mesh: usize,
@@ -70,18 +70,17 @@ pub(super) struct Batch {
 #[derive(Default)]
 pub(super) struct Draws {
     pub instances: Vec<GpuInstance>,
-    /// Of each instance in the world.
+    /// Each instance's, in the world.
     bounds: Vec<Bounds>,
-    /// What is opaque comes first. Hidden lights are in none.
+    /// What is opaque comes first. Hidden lights are in no batch.
     pub batches: Vec<Batch>,
 }
 
 impl Draws {
-    /// `mesh_bounds` are those of the scene's meshes, `kinds` what its lights are.
+    /// `mesh_bounds` are the bounds of the scene's meshes, `kinds` the kinds of its lights.
     pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
-        let mut lights = vec![None; scene.instances.len()];
-        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        let is_hidden = |index: usize| lights[index].is_some() && !settings.lights_visible;
+        let drawn = DrawnInstances::new(scene, settings);
+        let is_hidden = |index: usize| !drawn.is_drawn(index);
         let looks = scene.materials.iter().enumerate().map(|(index, material)| Look::new(index, material, settings));
         let looks: Vec<Look> = looks.collect();
         let variant = |instance: &Instance| {
@@ -99,7 +98,7 @@ impl Draws {
         for index in order {
             let instance = &scene.instances[index];
             let at = draws.instances.len() as u32;
-            draws.instances.push(gpu_instance(scene, instance, lights[index], variants[index].mirrored));
+            draws.instances.push(gpu_instance(scene, instance, drawn.emission(index), variants[index].mirrored));
             draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));
             if is_hidden(index) {
                 continue;
@@ -151,22 +150,20 @@ impl Draws {
     }
 }
 
-fn gpu_instance(scene: &Scene, instance: &Instance, light: Option<&Light>, mirrored: bool) -> GpuInstance {
-    let material_index = scene.meshes[instance.mesh].material;
-    let material = &scene.materials[material_index];
+fn gpu_instance(scene: &Scene, instance: &Instance, emission: Vec3, mirrored: bool) -> GpuInstance {
     GpuInstance {
         world_from_mesh: instance.world_from_mesh,
         normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
-        emission: light.map_or(material.emission, Light::emission),
-        material: material_index as u32,
+        emission,
+        material: scene.meshes[instance.mesh].material as u32,
         handedness: if mirrored { -1.0 } else { 1.0 },
         padding: [0; 3],
     }
 }
 
-/// The space that a view shows.
+/// The part of space that a view shows.
 pub(super) struct Frustum {
-    /// A point p is within where all `planes . (p, 1)` are positive.
+    /// A point p is inside where all `planes . (p, 1)` are positive.
     planes: [Vec4; 6],
     /// Grows with the distance along the view.
     depth: Vec4,
@@ -176,12 +173,12 @@ impl Frustum {
     /// `eye` as in `View`.
     pub fn new(clip_from_world: Mat4, eye: Vec4) -> Self {
         let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row));
-        // The depth runs from w at the near plane to 0 at the far one. Without perspective w is 1, and depth tells.
+        // Clip z falls from w at the near plane to 0 at the far one. Without perspective w is 1, so z has to tell.
         let depth = if eye.w == 0.0 { -z } else { w };
         Self { planes: [w - x, w + x, w - y, w + y, w - z, z], depth }
     }
 
-    /// Whether any of the box may be within. Boxes near the edges may be without.
+    /// Whether any part of the box may be inside. Boxes near the edges may be let through although they are outside.
     fn may_show(&self, bounds: &Bounds) -> bool {
         let (center, half) = (bounds.center(), 0.5 * bounds.max - 0.5 * bounds.min);
         self.planes.iter().all(|plane| {

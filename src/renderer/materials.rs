@@ -26,18 +26,18 @@ pub(super) struct GpuMaterial {
     padding: [u32; 3],
 }
 
-/// What of the shaders a material needs.
+/// Which parts of the shaders a material needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Look {
     pub sheen: bool,
-    /// `VARIANT_SHEEN_MODEL` of `variant.wgsl`: 0 where lights are integrated over in closed form.
+    /// `VARIANT_SHEEN_MODEL` of `variant.wgsl`: 0 where the integral over the lights has a closed form.
     pub sheen_model: u32,
     pub specular: bool,
     pub reciprocal: bool,
     pub unlit: bool,
     pub mask: bool,
     pub blend: bool,
-    /// Back faces are drawn.
+    /// Whether back faces are drawn.
     pub double_sided: bool,
     /// Bit k: slot k's texture counts.
     pub textures: u16,
@@ -78,7 +78,7 @@ impl Look {
 /// As `prior_sheens.wgsl` counts.
 fn model_number(model: SheenModel) -> u32 {
     match model {
-        // The latter are refused before.
+        // The slab and the walk have been refused before.
         SheenModel::Ltc | SheenModel::Slab | SheenModel::Walk => 0,
         SheenModel::Burley => 1,
         SheenModel::ContyKulla => 2,
@@ -95,7 +95,7 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         Layering::OpenPbr => (1, 1.0),
         Layering::Reciprocal => (2, 1.0),
         Layering::Manual(share) => (3, share),
-        // The walk is refused before.
+        // The walk has been refused before.
         Layering::None | Layering::Walk => (3, 1.0),
     };
     GpuMaterial {
@@ -108,7 +108,7 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         roughness: material.roughness,
         sheen_roughness: sheen.map_or(0.0, |sheen| sheen.roughness),
         alpha_exponent: look.map_or(1.0, |look| look.roughness_map.exponent()),
-        // Past this the normal lies in the surface, and its square is none of a float's.
+        // With larger scales the normal is in the surface's plane anyway, and its square would overflow.
         normal_scale: material.normal_scale.clamp(-1e6, 1e6),
         occlusion_strength: material.occlusion_strength,
         alpha_cutoff: if let AlphaMode::Mask { cutoff } = material.alpha_mode { cutoff } else { 0.0 },
@@ -118,7 +118,8 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
     }
 }
 
-/// `MaterialTransforms` of `material.wgsl`: two rows a slot, uv = rows (u, v, 1); w = 1 in the first where it takes the second set of coordinates.
+/// `MaterialTransforms` of `material.wgsl`: two rows per slot, uv = rows (u, v, 1); w is 1 in the first row where the
+/// texture uses the second set of coordinates.
 pub(super) fn transforms(material: &Material) -> [Vec4; 2 * TextureSlot::COUNT] {
     let mut rows = [Vec4::ZERO; 2 * TextureSlot::COUNT];
     for (rows, texture) in rows.as_chunks_mut::<2>().0.iter_mut().zip(&material.textures) {

@@ -1,4 +1,5 @@
-//! A scene on the device: meshes and textures once, and what the user may change (materials, lights, places) whenever it changes.
+//! A scene on the device: meshes and textures are uploaded once; what the user may change (materials, lights, where
+//! things stand), whenever it changes.
 
 use std::collections::HashMap;
 
@@ -12,7 +13,7 @@ use super::materials::{GpuMaterial, Look, factors};
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Mesh, Scene, Settings};
 
-/// A mesh's vertices, an attribute a buffer, so that none pays for those that it lacks.
+/// A mesh's vertices, one buffer per attribute, so that no mesh pays for attributes that it lacks.
 pub(super) struct MeshBuffers {
     pub positions: Buffer,
     pub normals: Buffer,
@@ -34,10 +35,10 @@ pub(super) struct Resident {
     pub light_vertices: Buffer,
     pub punctual: Buffer,
     pub light_points: Buffer,
-    /// What meshes have in place of the attributes that they lack: zero, and white.
+    /// What stands in for attributes that a mesh lacks: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
-    /// By material, and that of all materials without textures.
+    /// Those of the materials that have textures, by their index, and one for all the others.
     material_groups: (HashMap<usize, BindGroup>, BindGroup),
     pub draws: Draws,
 }
@@ -73,8 +74,8 @@ impl Resident {
         })
     }
 
-    /// Takes over the materials', lights' and instances' present values; says whether buffers were made anew, which happens where there
-    /// are more of them than there were. The meshes and textures are as they were.
+    /// Uploads the present values of materials, lights and instances. Returns whether buffers were made anew, which
+    /// happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<bool, RenderError> {
         let contents = Contents::new(scene, settings, &self.mesh_bounds);
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
@@ -101,7 +102,7 @@ impl Resident {
         Ok(grown)
     }
 
-    /// The textures of a batch.
+    /// The bind group of a batch's textures.
     pub fn textures(&self, batch: &Batch) -> &BindGroup {
         let (textured, plain) = &self.material_groups;
         textured.get(&batch.material).unwrap_or(plain)
@@ -127,7 +128,8 @@ impl Contents {
         }
     }
 
-    /// What goes into storage, with its name: instances, materials, polygons, their vertices, lights without extent, points on the polygons.
+    /// The contents of the storage buffers, with their names: instances, materials, polygons, their vertices, lights
+    /// without extent, points on the polygons.
     fn stored(&self) -> [(&'static str, &[u8]); 6] {
         [
             ("the instances", bytemuck::cast_slice(&self.draws.instances)),
@@ -142,7 +144,7 @@ impl Contents {
 
 fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
     let limit = gpu.device.limits().max_buffer_size;
-    // Without a copy on the way where the device can read what the processor writes.
+    // Where the device can read what the processor writes, there is no copy on the way.
     let shared = gpu.device.features().contains(wgpu::Features::MAPPABLE_PRIMARY_BUFFERS);
     let mapped = if shared { BufferUsages::MAP_WRITE } else { BufferUsages::empty() };
     let filled = |bytes: &[u8], usage| buffer(&gpu.device, &mesh.name, bytes, usage | mapped, limit);
@@ -160,7 +162,7 @@ fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
     })
 }
 
-/// A buffer with these contents; an empty one, which cannot be bound, is given 512 bytes of zeros.
+/// A buffer with these contents. An empty buffer could not be bound: it is given 512 bytes of zeros.
 fn buffer(
     device: &Device,
     name: &str,

@@ -3,15 +3,17 @@ use glam::{Mat4, Vec3};
 /// An axis-aligned box in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
+    /// The least coordinates.
     pub min: Vec3,
+    /// The greatest coordinates.
     pub max: Vec3,
 }
 
 impl Bounds {
-    /// The box of nothing, which any point widens to itself.
+    /// The empty box: widened by a point, it is that point alone.
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
-    /// The box around `points`.
+    /// The smallest box around `points`.
     pub fn of_points(points: &[Vec3]) -> Self {
         points.iter().fold(Self::EMPTY, |bounds, &point| bounds.with(point))
     }
@@ -34,12 +36,12 @@ impl Bounds {
         })
     }
 
-    /// The box around this one, placed by an affine transform.
+    /// The smallest box around this one as an affine transform places it.
     pub fn transformed(&self, matrix: Mat4) -> Self {
         Self::of_points(&self.corners().map(|corner| matrix.transform_point3(corner)))
     }
 
-    /// The middle; of a box that is not empty.
+    /// The middle of the box, which must not be empty.
     pub fn center(&self) -> Vec3 {
         0.5 * self.min + 0.5 * self.max
     }

@@ -1,4 +1,4 @@
-//! Polygons cut into convex parts.
+//! Polygons split into convex parts.
 
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
@@ -6,8 +6,9 @@ use glam::{DVec2, DVec3};
 use super::Polygon;
 
 impl Polygon {
-    /// Convex polygons that make this one up, without overlap, their vertices in order either way round: itself where it is convex,
-    /// otherwise triangles. Of an outline without area there may be none.
+    /// Convex parts that cover the polygon without overlapping: the polygon itself where it is convex, triangles
+    /// otherwise. The vertices of each are in order, clockwise or counter-clockwise. A polygon without area may have no
+    /// parts.
     pub fn convex_parts(&self) -> Vec<Vec<DVec3>> {
         let normal = self.normal.as_dvec3();
         let contours: Vec<Vec<DVec3>> =
@@ -33,14 +34,15 @@ fn flattened(contour: &[DVec3], normal: DVec3) -> Vec<DVec2> {
     contour.iter().map(|vertex| DVec2::new(x.dot(*vertex), y.dot(*vertex))).collect()
 }
 
-/// Triangles of a polygon with holes. Holes are told from areas by their winding; each area takes the holes inside of it.
+/// The triangles of a polygon that may have holes. Contours around areas are told from holes by their winding; each
+/// area is triangulated with the holes in it.
 fn triangles(contours: &[Vec<DVec3>], normal: DVec3) -> Vec<[DVec3; 3]> {
     let flat: Vec<Vec<DVec2>> = contours.iter().map(|contour| flattened(contour, normal)).collect();
     let (areas, holes): (Vec<usize>, Vec<usize>) = (0..flat.len()).partition(|&at| signed_area(&flat[at]) >= 0.0);
     let mut found = Vec::new();
     let mut cutter = Earcut::new();
     for &area in &areas {
-        // The innermost area that holds a hole is its own.
+        // A hole belongs to the innermost area around it.
         let own = holes.iter().filter(|&&hole| {
             let around = areas.iter().filter(|&&other| surrounds(&flat[other], flat[hole][0]));
             around.min_by(|&&i, &&j| signed_area(&flat[i]).total_cmp(&signed_area(&flat[j]))) == Some(&area)

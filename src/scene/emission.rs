@@ -1,21 +1,25 @@
-//! The mean of an emissive texture over an emitter: what the light that stands for it radiates.
+//! The mean of an emissive texture over an emitter, from which follows the radiance of its light.
 
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::{Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
+use super::mipmap::halved;
+use super::{Filter, Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
 
-/// Texels under an emitter, all triangles together: textures that have more there are looked up in a smaller mipmap.
+/// The most texels that an emitter may cover, all triangles together: where it covers more, a smaller mipmap is looked
+/// up.
 const TEXELS: f64 = (1 << 20) as f64;
-/// Points a texel, and all together at least.
+/// Points per texel.
 const POINTS: f64 = 4.0;
+/// The least number of points, all triangles together.
 const POINTS_MIN: f64 = (1 << 16) as f64;
 
-/// The radiance of an instance's emissive surface, linear Rec. 709: its material's emission times the mean of its emissive
-/// texture, over the area in the world. Finite. A mesh without the set of texture coordinates has all of them at (0, 0).
+/// The radiance of an instance's emissive surface, linear Rec. 709, finite: its material's emission times the mean of
+/// its emissive texture over the surface's area in the world. Where a mesh lacks the set of texture coordinates, all of
+/// them are (0, 0).
 ///
-/// The texture is taken bilinearly at the points of a low-discrepancy sequence in each triangle, 4 a texel or more. Noise,
-/// where every texel differs from the next, comes out within 0.0005 of white.
+/// The texture is looked up bilinearly at the points of a low-discrepancy sequence in each triangle, at least 4 per
+/// texel. For noise, where every texel differs from the next, the mean is right to 0.0005, where white is 1.
 pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
     let instance = &scene.instances[instance];
     let mesh = &scene.meshes[instance.mesh];
@@ -35,23 +39,24 @@ pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
         let area = 0.5 * (b - a).perp_dot(c - a).abs();
         if area.is_finite() { area } else { f64::MAX.sqrt() }
     };
-    let mut level = Level::new(&scene.images[texture.image]);
+    let mut level = Linear::new(&scene.images[texture.image]);
     let spans: f64 = triangles.par_iter().map(span).sum();
     while level.texels.len() > 1 && spans * level.texels.len() as f64 > TEXELS {
         level = level.halved();
     }
-    // Points for all of the image's area. Where there is one texel, or no area, one point a triangle will do.
+    // Points for the whole of the image. Where there is a single texel, or no area, one point per triangle will do.
     let density = (POINTS * level.texels.len() as f64).max(POINTS_MIN / spans);
     let density = if level.texels.len() > 1 && density.is_finite() { density } else { 0.0 };
-    let mean = |triangle: &[u32; 3]| {
-        level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, texture.sampler)
-    };
+    // Bilinear whatever the sampler says: over whole texels the mean is the same, and it takes fewer points.
+    let sampler = Sampler { magnify: Filter::Linear, ..texture.sampler };
+    let mean =
+        |triangle: &[u32; 3]| level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, sampler);
     let weighted = |triangle: &[u32; 3]| {
         let area = area(mesh, instance.world_from_mesh, triangle);
         (area * mean(triangle), area)
     };
     let add = |left: (DVec3, f64), right: (DVec3, f64)| (left.0 + right.0, left.1 + right.1);
-    // In order, so that the sum is the same every time.
+    // Summed in order, so that the result is the same every time.
     let parts: Vec<(DVec3, f64)> = triangles.par_iter().map(weighted).collect();
     let (sum, area) = parts.into_iter().fold((DVec3::ZERO, 0.0), add);
     if area > 0.0 && sum.is_finite() { material.emission * (sum / area).as_vec3() } else { Vec3::ZERO }
@@ -64,60 +69,39 @@ fn area(mesh: &Mesh, world_from_mesh: Mat4, triangle: &[u32; 3]) -> f64 {
     (b - a).cross(c - a).length()
 }
 
-/// A linear image.
-struct Level {
-    width: usize,
-    height: usize,
+/// An image in linear light.
+struct Linear {
+    size: [u32; 2],
     texels: Vec<Vec3>,
 }
 
-impl Level {
+impl Linear {
     fn new(image: &Image) -> Self {
         let linear: Vec<f32> = (0..=255).map(linear_from_srgb).collect();
         let texel = |&[red, green, blue, _]: &[u8; 4]| Vec3::from([red, green, blue].map(|code| linear[code as usize]));
-        let texels = image.texels.iter().map(texel).collect();
-        Self { width: image.width as usize, height: image.height as usize, texels }
+        Self { size: [image.width, image.height], texels: image.texels.iter().map(texel).collect() }
     }
 
-    /// The next mipmap. The last of an odd row or column counts twice.
+    /// The next mipmap.
     fn halved(&self) -> Self {
-        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
-        let at = |x: usize, y: usize| self.texels[y.min(self.height - 1) * self.width + x.min(self.width - 1)];
-        let mean = |(x, y): (usize, usize)| {
-            0.25 * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1))
-        };
-        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        Self { width, height, texels: places.map(mean).collect() }
+        let (size, texels) = halved(self.size, |at| self.texels[at], |mean| mean);
+        Self { size, texels }
     }
 
-    /// The mean over a triangle, at as many points.
+    /// The mean over a triangle of texture coordinates, from so many points.
     fn mean(&self, [a, b, c]: [DVec2; 3], points: u32, sampler: Sampler) -> DVec3 {
         // The sequence of the plastic number (M. Roberts 2018); its first point is the middle.
         const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
         let sum: DVec3 = (0..points)
             .map(|point| {
                 let at = (DVec2::splat(0.5) + f64::from(point) * STEP).fract();
-                // The unit square's upper half, folded onto the lower.
+                // Points beyond the unit square's diagonal are folded back into the triangle below it.
                 let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
                 let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
-                self.at(a + at.x * (b - a) + at.y * (c - a), sampler).as_dvec3()
+                let uv = a + at.x * (b - a) + at.y * (c - a);
+                sampler.magnified(self.size, uv, |at| self.texels[at].as_dvec3())
             })
             .sum();
         sum / f64::from(points)
-    }
-
-    /// Bilinear.
-    fn at(&self, uv: DVec2, sampler: Sampler) -> Vec3 {
-        let place = uv * DVec2::new(self.width as f64, self.height as f64) - 0.5;
-        // Further away there are no fractions left; what is not finite is anywhere.
-        let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
-        let (corner, fraction) = (place.floor(), (place - place.floor()).as_vec2());
-        let [columns, rows] = [(corner.x, self.width, 0), (corner.y, self.height, 1)]
-            .map(|(at, side, axis)| [at as i64, at as i64 + 1].map(|at| sampler.wrap[axis].texel(at, side as i64)));
-        let row = |y: usize| {
-            let [left, right] = columns.map(|x| self.texels[y * self.width + x]);
-            left.lerp(right, fraction.x)
-        };
-        row(rows[0]).lerp(row(rows[1]), fraction.y)
     }
 }

@@ -1,11 +1,11 @@
-//! Meshes that are drawn for polygon lights.
+//! Meshes that stand for polygon lights where they are drawn.
 
 use glam::{Vec2, Vec3};
 
 use super::{Material, Mesh, Scene};
 
-/// Adds a mesh, and a black material for it, that glows with `emission`: the convex polygon of `corners` in the plane
-/// z = 0, counter-clockwise seen from +z, where it shines to. Gives the mesh's index.
+/// Adds a mesh, with a black material of its own that glows with `emission`: the convex polygon of `corners` in the
+/// plane z = 0, counter-clockwise seen from +z, the side to which it shines. Returns the mesh's index.
 pub(super) fn add_mesh(scene: &mut Scene, name: &str, corners: &[Vec2], emission: Vec3) -> usize {
     scene.materials.push(Material { emission, ..Material::matte(name, Vec3::ZERO) });
     let fan = (2..corners.len() as u32).flat_map(|corner| [0, corner - 1, corner]);

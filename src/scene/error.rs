@@ -2,7 +2,8 @@
 
 use std::fmt::Display;
 
-/// A scene could not be made. Reads `FILE: PLACE: what is wrong; what to do`, always one line, whatever the file holds.
+/// Why a scene could not be loaded. Reads `FILE: PLACE: what is wrong; what to do`: always one line, whatever the file
+/// holds.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {fault}")]
 pub struct SceneError {
@@ -16,7 +17,7 @@ impl SceneError {
     }
 }
 
-/// What is wrong, within a file that the caller knows.
+/// What is wrong; the caller knows in which file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub(super) struct Fault(String);
@@ -33,7 +34,7 @@ impl Fault {
     }
 }
 
-/// Control characters (line ends above all) escaped: text that comes from a file must not break the one line.
+/// The text with control characters escaped, line ends above all: what comes from a file must not break the one line.
 pub(super) fn one_line(text: &str) -> String {
     let mut line = String::with_capacity(text.len());
     for character in text.chars() {
@@ -45,7 +46,7 @@ pub(super) fn one_line(text: &str) -> String {
     line
 }
 
-/// A thing of the file by its kind, index and name: `mesh 3 "sleeve"`. Long names are cut.
+/// Names a thing in the file by its kind, index and name: `mesh 3 "sleeve"`. Long names are cut short.
 pub(super) fn label(kind: &str, index: usize, name: Option<&str>) -> String {
     const SHOWN: usize = 60;
     match name {

@@ -1,9 +1,10 @@
 //! Planar islands: the flat parts of a mesh, each of which lights as one polygon.
 //!
-//! Positions within 1e-6 of the mesh's size are welded, triangles thinner than that are left out, of those that coincide
-//! and face the same way one is kept, and two triangles are neighbours where they share a whole edge, run through in opposite directions. (A vertex in the middle of a
-//! neighbour's edge, a T-junction, parts them; their polygons then light as much as one would.)
-//! An island is connected, faces one way, and is planar to 1e-3 of its size.
+//! Positions within 1e-6 of the mesh's size are welded, and triangles thinner than that are left out. Of triangles that
+//! coincide and face the same way, one is kept. Two triangles are neighbours where they share a whole edge and run
+//! along it in opposite directions. (A vertex in the middle of a neighbour's edge, a T-junction, separates the two;
+//! their polygons then light as much as one would.) An island is connected, faces one way, and is planar to 1e-3 of its
+//! size.
 
 use std::collections::{HashMap, HashSet};
 
@@ -16,17 +17,17 @@ use super::{Bounds, Instance, Mesh, Polygon};
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Half the thickness of an island, relative to the diagonal of its bounding box.
 const PLANE_TOLERANCE: f64 = 1e-3;
-/// Cosine of the sharpest edge (60 degrees) within an island: noise well within the plane's tolerance may turn the faces
-/// of a finely divided plane as far.
+/// Cosine of the sharpest edge (60 degrees) within an island: in a finely divided plane, noise well within the plane's
+/// tolerance may turn faces as far as that.
 const FACING_COSINE: f64 = 0.5;
-/// Cosine of the sharpest edge (3 degrees) within an island of a patch that is not planar as a whole.
+/// Cosine of the sharpest edge (3 degrees) within an island that is part of a patch which is not planar as a whole.
 const SMOOTH_COSINE: f64 = 0.9986;
-/// Edges with more triangles than this join none: where honest meshes have two, hostile ones have a million.
+/// An edge shared by more triangles than this joins none of them: honest meshes have two, hostile ones a million.
 const EDGE_USES_MAX: usize = 8;
 
-/// How a mesh's triangles hang together, in whatever place it stands.
+/// How a mesh's triangles are connected, wherever the mesh is placed.
 pub(super) struct Topology {
-    /// Triangles of welded vertices, thin ones left out.
+    /// Triangles of welded vertices, without the thin ones.
     triangles: Vec<[u32; 3]>,
     /// The neighbours of triangle `i` are `neighbours[starts[i]..starts[i + 1]]`.
     starts: Vec<usize>,
@@ -57,7 +58,7 @@ impl Topology {
         Self { triangles, starts, neighbours }
     }
 
-    /// The islands of the mesh as `instance` places it, counter-clockwise seen from the front. None where there are
+    /// The islands of the mesh as `instance` places it, counter-clockwise seen from the front; `None` where there are
     /// more than `limit`.
     pub fn polygons(&self, mesh: &Mesh, instance: &Instance, limit: usize) -> Option<Vec<Polygon>> {
         let world_from_mesh = DAffine3::from_mat4(instance.world_from_mesh.as_dmat4());
@@ -80,30 +81,30 @@ impl Topology {
     }
 }
 
-/// The same triangle beginning with its least vertex.
+/// The same triangle, starting from the vertex of least index.
 fn from_least(mut triangle: [u32; 3]) -> [u32; 3] {
     let least = (0..3).min_by_key(|&corner| triangle[corner]).unwrap_or_default();
     triangle.rotate_left(least);
     triangle
 }
 
-/// For each vertex the first one at its place, to `tolerance`.
+/// For each vertex, the first one that is at its place within `tolerance`.
 fn weld(positions: &[Vec3], tolerance: f64) -> Vec<u32> {
     let mut places = Places::new(positions, tolerance);
     let mut same = HashMap::with_capacity(positions.len());
-    // Most vertices that meet are equal to the bit: these need no search. Adding zero makes -0 and 0 one.
+    // Most vertices that coincide are equal to the bit and need no search. Adding zero makes 0 of -0.
     let key = |position: &Vec3| (*position + Vec3::ZERO).to_array().map(f32::to_bits);
     let welded = positions.iter().enumerate();
     welded.map(|(index, position)| *same.entry(key(position)).or_insert_with(|| places.find_or_insert(index))).collect()
 }
 
-/// Vertices no two of which are at one place, in cells.
+/// Vertices sorted into cells, no two of them at one place.
 struct Places<'a> {
     positions: &'a [Vec3],
     tolerance: f64,
     origin: DVec3,
     cell_width: f64,
-    /// The last vertex in each cell that has any, and the one before each vertex in its cell.
+    /// The last vertex in each cell that has any, and for each vertex the one before it in its cell.
     last: HashMap<[i64; 3], u32>,
     before: Vec<Option<u32>>,
 }
@@ -117,7 +118,7 @@ impl<'a> Places<'a> {
         Self { positions, tolerance, origin, cell_width, last, before: vec![None; positions.len()] }
     }
 
-    /// The vertex at the place of `index`, which is itself where there was none.
+    /// The vertex at the place of vertex `index`: that vertex itself where there was none yet.
     fn find_or_insert(&mut self, index: usize) -> u32 {
         let point = self.positions[index].as_dvec3();
         let (low, high) = (self.cell(point - self.tolerance), self.cell(point + self.tolerance));
@@ -146,7 +147,8 @@ impl<'a> Places<'a> {
 
 /// Neighbours of triangles, as `Topology` holds them.
 fn adjacency(triangles: &[[u32; 3]]) -> (Vec<usize>, Vec<u32>) {
-    // Every use of an edge: its ends in order, whether it is run through in that order, and by which triangle.
+    // Every use of an edge: its ends in order, whether the triangle runs along it in that order, and which triangle it
+    // is.
     let mut uses = Vec::with_capacity(3 * triangles.len());
     for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
         uses.extend(
@@ -169,7 +171,7 @@ fn adjacency(triangles: &[[u32; 3]]) -> (Vec<usize>, Vec<u32>) {
     (starts.collect(), pairs.into_iter().map(|(_, right)| right).collect())
 }
 
-/// A mesh in the world, about to be taken apart.
+/// A mesh in the world, about to be split into islands.
 struct Placed<'a> {
     topology: &'a Topology,
     positions: Vec<DVec3>,
@@ -188,11 +190,11 @@ impl Placed<'_> {
         Some(islands.iter().filter_map(|island| self.polygon(island)).collect())
     }
 
-    /// Parts triangles that hang together into islands: where not all of them lie in one plane, the smooth parts
-    /// between sharp edges may. None where there are more than `limit`.
+    /// Splits connected triangles into islands: where they do not all lie in one plane, the smooth parts between sharp
+    /// edges may. `None` where there are more than `limit` islands.
     fn part(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
         if self.is_planar(&patch) {
-            // An empty one is no island.
+            // An empty patch is no island.
             islands.extend(Some(patch).filter(|patch| !patch.is_empty()));
             return (islands.len() <= limit).then_some(());
         }
@@ -211,7 +213,7 @@ impl Placed<'_> {
         Some(())
     }
 
-    /// Nothing but `patch` is open to growth.
+    /// Marks all triangles as taken but those of `patch`.
     fn all_taken_but(&self, patch: &[u32]) -> Vec<bool> {
         let mut taken = vec![true; self.triangles.len()];
         patch.iter().for_each(|&triangle| taken[triangle as usize] = false);
@@ -222,7 +224,8 @@ impl Placed<'_> {
         self.faces[left as usize].normal.dot(self.faces[right as usize].normal)
     }
 
-    /// Takes the triangles that hang together with `seed` through pairs that `joins`; none if `seed` is taken already.
+    /// Takes the triangles that are connected to `seed` through pairs of neighbours that `joins` accepts; none if
+    /// `seed` is taken.
     fn grow(&self, seed: u32, taken: &mut [bool], mut joins: impl FnMut(u32, u32) -> bool) -> Vec<u32> {
         if std::mem::replace(&mut taken[seed as usize], true) {
             return Vec::new();
@@ -241,8 +244,8 @@ impl Placed<'_> {
         grown
     }
 
-    /// Parts a curved patch into planes, each grown from the largest triangle that is left. None where there are more
-    /// than `limit` islands.
+    /// Splits a curved patch into planes, each grown from the largest triangle that is left. `None` where there are
+    /// more than `limit` islands.
     fn split(&self, patch: Vec<u32>, islands: &mut Vec<Vec<u32>>, limit: usize) -> Option<()> {
         let mut taken = self.all_taken_but(&patch);
         let mut seeds = patch;
@@ -257,7 +260,8 @@ impl Placed<'_> {
         Some(())
     }
 
-    /// Grows through triangles that lie in the plane of `seed`, to the tolerance of what has grown so far.
+    /// Grows through triangles that lie in the plane of `seed`, within the tolerance for the size that the island has
+    /// so far.
     fn grow_plane(&self, seed: u32, taken: &mut [bool]) -> Vec<u32> {
         let normal = self.faces[seed as usize].normal;
         let origin = self.positions[self.triangles[seed as usize][0] as usize];
@@ -294,7 +298,7 @@ impl Placed<'_> {
         self.triangles[triangle as usize].map(|corner| self.positions[corner as usize])
     }
 
-    /// The outline of an island; none where nothing of an area is left of it.
+    /// The polygon of an island; `None` where no area is left of it.
     fn polygon(&self, island: &[u32]) -> Option<Polygon> {
         let triangles = island.iter().map(|&triangle| self.triangles[triangle as usize]);
         let normal = self.normal(island);
@@ -303,7 +307,7 @@ impl Placed<'_> {
     }
 }
 
-/// An axis-aligned box in the precision of the work here.
+/// An axis-aligned box in `f64`.
 #[derive(Clone, Copy)]
 struct Extent {
     min: DVec3,

@@ -1,4 +1,4 @@
-//! Lights out of what glows.
+//! Lights made of what glows.
 
 use glam::Vec3;
 
@@ -7,14 +7,14 @@ use super::notices::Notices;
 use super::outline::crosses;
 use super::{Light, Scene, emission};
 
-/// The most planar islands of an instance that lights.
+/// The most planar islands of an instance that is a light.
 pub const ISLANDS_MAX: usize = 256;
-/// The most corners that all lights of a scene have together: every shaded point visits each.
+/// The most corners of all lights of a scene together: every shaded point visits each of them.
 pub const CORNERS_MAX: usize = 8192;
-/// The most triangles of all emitters together: what is searched for islands.
+/// The most triangles of all emitters together that are searched for islands.
 const TRIANGLES_MAX: usize = 1 << 23;
 
-/// Adds a light for every instance from `first` on that emits. What is past a limit glows and lights nothing.
+/// Adds a light for every instance from index `first` on that emits. What is past a limit glows but lights nothing.
 pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices) {
     let (mut triangles, mut corners) = (0, 0);
     let mut topologies: Vec<Option<Topology>> = scene.meshes.iter().map(|_| None).collect();
@@ -48,7 +48,7 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
                 notices.add(kind, || name.clone());
             }
             let name = name.clone();
-            // Channels that do not glow have no mean: 1, so that they may be given one.
+            // A channel that does not glow has no mean. With 1 it may be given a radiance later.
             let mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
             let texture_mean = Vec3::select(material.emission.cmpgt(Vec3::ZERO), mean, Vec3::ONE);
             let two_sided = material.double_sided;

@@ -7,35 +7,37 @@ use super::TextureUse;
 /// Each factor is multiplied by its texture where there is one ([`TextureSlot`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
+    /// What users call it; may be empty.
     pub name: String,
     /// Linear Rec. 709, each in [0, 1]: albedo of a dielectric's diffuse base, reflectance of a metal facing the view.
     pub base_color: Vec3,
-    /// The base colour's fourth number, in [0, 1].
+    /// The fourth number of the file's base colour, in [0, 1].
     pub opacity: f32,
+    /// What becomes of the opacity.
     pub alpha_mode: AlphaMode,
-    /// From dielectric (0) to metal (1).
+    /// From dielectric, 0, to metal, 1.
     pub metallic: f32,
     /// The user's roughness of the base in [0, 1].
     pub roughness: f32,
     /// KHR_materials_specular: strength of a dielectric's specular reflection in [0, 1].
     pub specular: f32,
-    /// KHR_materials_specular: tint of it where it faces the view, linear Rec. 709, >= 0.
+    /// KHR_materials_specular: tint of that reflection where the surface faces the view, linear Rec. 709, >= 0.
     pub specular_color: Vec3,
-    /// KHR_materials_ior: refractive index of a dielectric, >= 1, or 0: all light is reflected.
+    /// KHR_materials_ior: refractive index of a dielectric, >= 1; or 0, which stands for reflecting all light.
     pub ior: f32,
-    /// The layer of fibres on top, if there is one.
+    /// The layer of fibres on top, where there is one.
     pub sheen: Option<Sheen>,
     /// Emitted radiance (glTF's emissiveFactor times its emissive strength), linear Rec. 709, >= 0.
     pub emission: Vec3,
     /// KHR_materials_unlit: the base colour is shown as it is, whatever lights it; it counts as emission.
     pub unlit: bool,
-    /// Back faces are drawn and lit with the normal turned; otherwise they are culled.
+    /// Back faces are drawn, and lit with the normal turned round; otherwise they are culled.
     pub double_sided: bool,
-    /// Scale of the normal texture's x and y.
+    /// Factor of the normal texture's x and y; any finite number.
     pub normal_scale: f32,
-    /// How much of the occlusion texture counts, in [0, 1].
+    /// How far the occlusion texture counts, in [0, 1].
     pub occlusion_strength: f32,
-    /// By [`TextureSlot`].
+    /// Indexed by [`TextureSlot`].
     pub textures: [Option<TextureUse>; TextureSlot::COUNT],
 }
 
@@ -62,13 +64,14 @@ impl Material {
         }
     }
 
-    /// The texture in a slot.
+    /// The texture in a slot, if there is one.
     pub fn texture(&self, slot: TextureSlot) -> Option<TextureUse> {
         self.textures[slot as usize]
     }
 
-    /// Reflectance of a dielectric along the normal: Fresnel's ((n - 1) / (n + 1))^2, tinted and weakened. With its textures' share it
-    /// is cut at `specular`'s, which a tint may pass.
+    /// Reflectance of a dielectric along the normal, linear Rec. 709, >= 0: Fresnel's ((n - 1) / (n + 1))^2, tinted and
+    /// weakened. A tint may take it above `specular`: whoever shades limits it to that, once both have been multiplied
+    /// by their textures.
     pub fn dielectric_f0(&self) -> Vec3 {
         let normal = ((self.ior - 1.0) / (self.ior + 1.0)).powi(2);
         normal * self.specular_color * self.specular
@@ -78,12 +81,15 @@ impl Material {
 /// What becomes of the opacity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AlphaMode {
-    /// Not looked at.
+    /// It is ignored.
     #[default]
     Opaque,
-    /// Nothing is there where it is less than the cutoff, >= 0.
-    Mask { cutoff: f32 },
-    /// What lies behind shows through.
+    /// Where it is less than the cutoff, nothing is there.
+    Mask {
+        /// >= 0; above 1 nothing is ever there.
+        cutoff: f32,
+    },
+    /// What lies behind shows through by the rest.
     Blend,
 }
 
@@ -94,7 +100,8 @@ pub struct Sheen {
     pub color: Vec3,
     /// The user's roughness in [0, 1].
     pub roughness: f32,
-    /// How much of the surface the layer covers, in [0, 1]: 1 for KHR_materials_sheen, fuzzFactor for KHR_materials_fuzz.
+    /// How much of the surface the layer covers, in [0, 1]: 1 for KHR_materials_sheen, fuzzFactor for
+    /// KHR_materials_fuzz.
     pub weight: f32,
 }
 
@@ -105,34 +112,36 @@ impl Sheen {
     }
 }
 
-/// What a texture stands for, and so which of its channels are read and how they are encoded.
+/// What a texture stands for: which of its channels are read, and how they are encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureSlot {
-    /// rgb, sRGB; a is the opacity.
+    /// rgb: the base colour, sRGB; a: the opacity.
     BaseColor,
     /// g: roughness; b: metallic.
     MetallicRoughness,
     /// rgb: the normal in the tangent frame, from [0, 1] to [-1, 1].
     Normal,
-    /// r.
+    /// r: the share of light from the environment that arrives.
     Occlusion,
-    /// rgb, sRGB.
+    /// rgb: emitted radiance, sRGB.
     Emission,
-    /// a.
+    /// a: strength of a dielectric's specular reflection.
     Specular,
-    /// rgb, sRGB.
+    /// rgb: tint of that reflection, sRGB.
     SpecularColor,
-    /// rgb, sRGB.
+    /// rgb: `C_sheen`, sRGB.
     SheenColor,
-    /// a.
+    /// a: roughness of the sheen.
     SheenRoughness,
-    /// r.
+    /// r: how much of the surface the sheen covers.
     SheenWeight,
 }
 
 impl TextureSlot {
+    /// How many slots there are.
     pub const COUNT: usize = 10;
 
+    /// All slots, in the order of their numbers.
     pub const ALL: [Self; Self::COUNT] = [
         Self::BaseColor,
         Self::MetallicRoughness,

@@ -3,18 +3,20 @@ use glam::{DMat3, Mat3, Mat4, Vec2, Vec3, Vec4};
 /// An indexed triangle mesh in its own space.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
-    /// For messages: the glTF mesh and primitive.
+    /// The glTF mesh and primitive, for messages.
     pub name: String,
-    /// Metres.
+    /// In metres, in the mesh's own space.
     pub positions: Vec<Vec3>,
     /// Unit length, one per position.
     pub normals: Vec<Vec3>,
-    /// Unit length, one per position, w = 1 or -1: the bitangent is w (normal x tangent). Empty where nothing is normal-mapped.
+    /// Unit length, one per position, w = 1 or -1: the bitangent is w (normal x tangent). Empty where nothing is
+    /// normal-mapped.
     pub tangents: Vec<Vec4>,
-    /// Two sets of texture coordinates, each with one per position, or empty: where no texture of the material takes it, or
-    /// all are 0.
+    /// Two sets of texture coordinates, each one per position, or empty where no texture of the material uses the set
+    /// or all its coordinates are 0.
     pub tex_coords: [Vec<Vec2>; 2],
-    /// Linear colour and opacity that multiply the material's base colour, 65535 is 1: one per position, or empty.
+    /// Linear colour and opacity by which the material's base colour is multiplied, 65535 for 1: one per position, or
+    /// empty.
     pub colors: Vec<[u16; 4]>,
     /// Three per triangle, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
@@ -34,8 +36,8 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Takes normals of the mesh to the world's, up to a positive factor: the inverse transpose, scaled so that its
-    /// largest entry is 1. Finite whatever the scale.
+    /// Takes the mesh's normals to the world's, up to a positive factor: the inverse transpose of the transform, scaled
+    /// so that its largest entry is 1 or -1. Finite whatever the transform's scale.
     pub fn world_from_normal(&self) -> Mat3 {
         let matrix = DMat3::from_mat4(self.world_from_mesh.as_dmat4());
         let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
@@ -45,7 +47,7 @@ impl Instance {
         (cofactors * largest.recip()).as_mat3()
     }
 
-    /// Whether the transform mirrors, and so turns front faces into back faces by winding.
+    /// Whether the transform mirrors the mesh: by winding, front faces are then back faces.
     pub fn mirrors(&self) -> bool {
         DMat3::from_mat4(self.world_from_mesh.as_dmat4()).determinant() < 0.0
     }

@@ -1,12 +1,13 @@
 //! What there is to be drawn: meshes, materials, polygon lights and cameras, in metres and linear Rec. 709.
 //!
-//! A scene is plain data. [`gltf`] makes one from a file; whoever draws it reads it and changes nothing.
+//! A scene is plain data. [`gltf`] makes one from a file; whoever draws it reads it, and changes nothing in it.
 
 #[cfg(feature = "cli")]
 pub mod assets;
 mod bounds;
 mod camera;
 mod convex_parts;
+mod drawn;
 mod emission;
 mod emitter;
 mod error;
@@ -17,6 +18,7 @@ mod light;
 mod lights;
 mod material;
 mod mesh;
+mod mipmap;
 mod notices;
 mod outline;
 mod rig;
@@ -30,44 +32,49 @@ use glam::Vec3;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
+pub use drawn::DrawnInstances;
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
 pub use material::{AlphaMode, Material, Sheen, TextureSlot};
 pub use mesh::{Instance, Mesh};
+pub use mipmap::{Encoding, Level};
 pub use settings::{Layering, Lobes, Overrides, RoughnessMap, Settings, SheenLook, SheenModel};
 pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from_srgb};
 
 /// Everything that a picture is made of.
 ///
-/// Indices between the parts are valid: whoever makes a `Scene` sees to it.
+/// Indices from one part into another are valid: whoever makes a `Scene` sees to that.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Triangles in their own space, one mesh per glTF primitive.
     pub meshes: Vec<Mesh>,
     /// Meshes placed in the world.
     pub instances: Vec<Instance>,
+    /// What the meshes are made of.
     pub materials: Vec<Material>,
+    /// What the materials look up.
     pub textures: Vec<Texture>,
+    /// What the textures show.
     pub images: Vec<Image>,
     /// Polygonal area lights.
     pub lights: Vec<Light>,
     /// Lights without extent.
     pub punctual_lights: Vec<PunctualLight>,
-    /// At least one, after loading: the first is the default view.
+    /// The views. After loading there is at least one; the first is the default.
     pub cameras: Vec<Camera>,
-    /// What the file holds and Velour does not draw, or what was added (a framing camera, a default rig): one line each,
-    /// one per kind, for the caller to print.
+    /// What the file holds that Velour does not draw, and what was added to it (a framing camera, a default rig): one
+    /// line per kind, for the caller to print.
     pub notices: Vec<String>,
 }
 
 impl Scene {
-    /// The camera that `wanted` names, else the one that it counts (from 0).
+    /// The camera of the name `wanted`, else, where it is a number, the camera of that index, counted from 0.
     pub fn camera(&self, wanted: &str) -> Option<&Camera> {
         let named = self.cameras.iter().find(|camera| camera.name == wanted);
         named.or_else(|| self.cameras.get(wanted.parse::<usize>().ok()?))
     }
 
-    /// Moves a light, and the emitter that is drawn for it, by `offset` in the world.
+    /// Moves the light of this index, and the emitter that is drawn for it, by `offset` metres in the world.
     pub fn move_light(&mut self, index: usize, offset: Vec3) {
         let light = &mut self.lights[index];
         let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
@@ -75,13 +82,13 @@ impl Scene {
         self.instances[light.instance].world_from_mesh.w_axis += offset.extend(0.0);
     }
 
-    /// A box in the world around all that is drawn. Not the smallest: rotated meshes have room in theirs.
+    /// A box in the world around all instances. It is not the smallest: around rotated meshes there is room.
     pub fn bounds(&self) -> Bounds {
         self.bounds_of(|_| true)
     }
 
-    /// A box around what is lit: all that is drawn and does not glow, or all where everything glows. Of what is textured
-    /// little may glow, so that is no lamp.
+    /// A box around what is lit: all instances that do not glow, or all of them where everything glows. What has an
+    /// emissive texture counts as lit, for perhaps only a small part of it glows.
     pub fn subject(&self) -> Bounds {
         let is_lamp =
             |material: &Material| material.emission != Vec3::ZERO && material.texture(TextureSlot::Emission).is_none();

@@ -1,8 +1,8 @@
-//! Warnings that wait until loading has succeeded.
+//! Warnings, which wait until loading has succeeded.
 
 use super::error::one_line;
 
-/// Collects what to tell the user: one line per kind, however often it occurs.
+/// Collects what the user is to be told: one line per kind, however often it occurs.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
     kinds: Vec<Notice>,
@@ -16,7 +16,7 @@ struct Notice {
 }
 
 impl Notices {
-    /// Notes that `kind` (a clause that tells what is done about it) occurs at `place`.
+    /// Notes that something of `kind`, a clause that says what is done about it, occurs at `place`.
     pub fn add(&mut self, kind: &'static str, place: impl FnOnce() -> String) {
         match self.kinds.iter_mut().find(|notice| notice.kind == kind) {
             Some(notice) => notice.more += 1,

@@ -4,15 +4,16 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// How far the outline may move for a vertex to be dropped, relative to the island's size: far below what a picture
-/// shows, above the noise of rounded positions.
+/// How far the outline may move where a vertex is dropped, relative to the island's size: far below what a picture
+/// shows, and above the noise of rounded positions.
 const STRAIGHT_TOLERANCE: f64 = 1e-6;
-/// How far edges must reach past each other to cross, relative to the island's size.
+/// How far edges must reach past each other to count as crossing, relative to the island's size.
 const CROSSING_TOLERANCE: f64 = 1e-4;
 
-/// The closed contours around `triangles` (of vertices in `positions`), which lie in a plane of unit `normal` and turn
-/// counter-clockwise seen against it: so do contours around their area; those around holes turn clockwise. Vertices on
-/// straight runs are dropped. The integral over the contours of anything linear is that over the triangles' area.
+/// The closed contours around `triangles`, whose vertices are in `positions`. They lie in a plane of unit `normal` and
+/// run counter-clockwise seen from the side to which it points. So do the contours around their area; contours around
+/// holes run clockwise. Vertices on straight runs are dropped. What is linear integrates over the contours to what it
+/// does over the triangles.
 pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DVec3], normal: DVec3) -> Vec<Vec<Vec3>> {
     let (right, up) = normal.any_orthonormal_pair();
     let loops = loops(boundary(triangles));
@@ -33,8 +34,8 @@ pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DV
     contours.filter(|contour| contour.len() >= 3).collect()
 }
 
-/// Whether the edges of an outline in a plane of unit `normal` cross each other: its triangles overlap then, and what is
-/// covered twice counts twice. Takes the square of the number of edges.
+/// Whether the edges of an outline in a plane of unit `normal` cross each other. Its triangles then overlap, and what
+/// is covered twice counts twice. The time grows with the square of the number of edges.
 pub(super) fn crosses(contours: &[Vec<Vec3>], normal: Vec3) -> bool {
     let (right, up) = normal.as_dvec3().any_orthonormal_pair();
     let flatten = |corner: Vec3| DVec2::new(corner.as_dvec3().dot(right), corner.as_dvec3().dot(up));
@@ -45,7 +46,7 @@ pub(super) fn crosses(contours: &[Vec<Vec3>], normal: Vec3) -> bool {
     let edges: Vec<(DVec2, DVec2)> = edges.collect();
     let origin = edges.first().map_or(DVec2::ZERO, |edge| edge.0);
     let reach = edges.iter().map(|edge| edge.0.distance(origin)).fold(0.0, f64::max);
-    // Corners that rounding put on the wrong side of an edge are none.
+    // Corners that rounding has put on the wrong side of an edge do not count.
     let tolerance = CROSSING_TOLERANCE * reach;
     let parts = |(from, to): (DVec2, DVec2), (one, other): (DVec2, DVec2)| {
         let along = (to - from).normalize_or_zero();
@@ -58,7 +59,7 @@ pub(super) fn crosses(contours: &[Vec<Vec3>], normal: Vec3) -> bool {
         .any(|(at, &edge)| edges[at + 1..].iter().any(|&other| parts(edge, other) && parts(other, edge)))
 }
 
-/// The directed edges of the triangles that no opposite one cancels, sorted.
+/// The triangles' directed edges that no opposite edge cancels, sorted.
 fn boundary(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<(u32, u32)> {
     let mut edges: Vec<(u32, u32)> = triangles.flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
     edges.sort_unstable_by_key(|&(from, to)| (from.min(to), from.max(to), from));
@@ -74,14 +75,14 @@ fn boundary(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<(u32, u32)> {
     boundary
 }
 
-/// Joins edges, as many into each vertex as out of it, to loops that pass no vertex twice. Where there is a choice any
-/// will do: the integral over all loops is the same.
+/// Joins edges, of which as many lead into each vertex as out of it, into loops that pass no vertex twice. Where there
+/// is a choice, any will do: the integral over all loops is the same.
 fn loops(edges: Vec<(u32, u32)>) -> Vec<Vec<u32>> {
     let mut unused: HashMap<u32, Vec<u32>> = HashMap::new();
     edges.iter().rev().for_each(|&(from, to)| unused.entry(from).or_default().push(to));
     let mut loops = Vec::new();
     for &(start, _) in &edges {
-        // The walk so far, and where on it each vertex stands. It ends where it began: elsewhere a way leads on.
+        // The walk so far, and each vertex's position in it. It ends where it began: anywhere else an edge leads on.
         let mut walk = vec![start];
         let mut places = HashMap::from([(start, 0)]);
         while let Some(next) = walk.last().and_then(|vertex| unused.get_mut(vertex)?.pop()) {
@@ -103,8 +104,9 @@ fn loops(edges: Vec<(u32, u32)>) -> Vec<Vec<u32>> {
     loops
 }
 
-/// Which vertices of a closed loop to keep so that no dropped one is further than `tolerance` from the line that
-/// replaces it: from each kept vertex the line is drawn out as long as some direction passes near all in between.
+/// Which vertices of a closed loop to keep so that no dropped one is farther than `tolerance` from the line that
+/// replaces it: from each kept vertex, the line is drawn on for as long as some direction passes near all the vertices
+/// in between.
 fn bends(points: &[DVec2], tolerance: f64) -> Vec<usize> {
     // The lowest of the leftmost is a corner, whatever the shape.
     let order = |left: &DVec2, right: &DVec2| left.x.total_cmp(&right.x).then(left.y.total_cmp(&right.y));
@@ -125,10 +127,10 @@ fn bends(points: &[DVec2], tolerance: f64) -> Vec<usize> {
     kept
 }
 
-/// The directions from an apex that pass near all points so far.
+/// The directions from an apex that pass near all the points so far.
 struct Sector {
     apex: DVec2,
-    /// The rightmost and leftmost direction, less than half a turn apart; none as long as every direction will do.
+    /// The rightmost and leftmost direction, less than half a turn apart; `None` as long as every direction will do.
     sides: Option<(DVec2, DVec2)>,
 }
 
@@ -137,7 +139,7 @@ impl Sector {
         Self { apex, sides: None }
     }
 
-    /// Whether the line to `point` is among them.
+    /// Whether the direction to `point` is among them.
     fn passes(&self, point: DVec2) -> bool {
         let arm = point - self.apex;
         self.sides.is_none_or(|(right, left)| {

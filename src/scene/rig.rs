@@ -1,30 +1,31 @@
-//! Lights for files without any: a key, a fill and a rim light, as in a photographer's studio.
+//! Lights for files that have none: a key, a fill and a rim light, as in a photographer's studio.
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::notices::Notices;
 use super::{Camera, Instance, Projection, Scene, emitter, framing, lights};
 
-/// Radiance of a white diffuse surface that faces the key light.
+/// Radiance of a white diffuse surface that faces the key, fill or rim light.
 const KEY_LEVEL: f32 = 0.7;
 const FILL_LEVEL: f32 = 0.2;
 const RIM_LEVEL: f32 = 0.9;
-/// From the subject's middle, in its radii: out of the frame of a camera that frames the subject.
+/// Distance of the lights from the subject's middle, in its radii: out of the frame of a camera that frames the
+/// subject.
 const DISTANCE: f32 = 3.5;
 
-/// Pictures wider than this, relative to their height, may show a light of the rig.
+/// Width over height of the widest pictures in which no light of the rig is seen; wider ones may show one.
 const ASPECT: f32 = 2.0;
-/// How many sizes of the rig are tried for one that the camera does not see.
+/// How many sizes of the rig are tried to find one that the camera does not see.
 const SIZES: usize = 6;
 
 /// One rectangle of the rig. It faces the subject.
 struct Panel {
     name: &'static str,
-    /// Where it stands seen from the subject, in the camera's frame: right, up, towards the camera.
+    /// The direction in which it stands from the subject, in the camera's frame: right, up, towards the camera.
     direction: Vec3,
     /// Half its width and height, in the subject's radii.
     half_size: [f32; 2],
-    /// Radiance that it alone gives a white diffuse surface in the subject's middle that faces it.
+    /// The radiance that it alone gives a white diffuse surface which faces it from the subject's middle.
     level: f32,
 }
 
@@ -35,8 +36,8 @@ const PANELS: [Panel; 3] = [
 ];
 
 impl Panel {
-    /// Where it stands for a subject of `radius` about `center`: a square of two metres in the plane z = 0, which glows
-    /// towards +z, is taken to the world.
+    /// Places it for a subject of `radius` about `center`: takes a square of two metres a side in the plane z = 0,
+    /// which glows towards +z, to the world.
     fn world_from_mesh(&self, camera: &Camera, center: Vec3, radius: f32) -> Mat4 {
         let world_from_camera = Mat3::from_mat4(camera.world_from_camera);
         let front = world_from_camera * -self.direction.normalize();
@@ -47,14 +48,14 @@ impl Panel {
     }
 }
 
-/// Adds the rig around what the first camera shows, where nothing lights the scene.
+/// Adds the rig around the subject, as the first camera sees it, where nothing lights the scene.
 pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
     let is_dark = scene.lights.is_empty() && scene.punctual_lights.is_empty();
     let (true, Some(camera)) = (is_dark, scene.cameras.first()) else { return };
     let first = scene.instances.len();
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
-    // Further away and larger by as much it lights a subject the same, and leaves the frame at last.
+    // Farther away and larger by the same factor it lights the subject alike, and at last it leaves the frame.
     let sizes = std::iter::successors(Some(radius), |size| Some(2.0 * size)).take(SIZES);
     let placed = sizes.map(|size| PANELS.each_ref().map(|panel| panel.world_from_mesh(camera, center, size)));
     let unseen = |placed: &[Mat4; PANELS.len()]| !placed.iter().any(|&panel| shows(camera, panel));
@@ -67,11 +68,11 @@ pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
     notices.add("nothing in the file lights the scene", || "key, fill and rim lights are added".to_owned());
 }
 
-/// Whether any of the face of a panel may be in the frame.
+/// Whether any part of a panel's face may be in the frame.
 fn shows(camera: &Camera, world_from_mesh: Mat4) -> bool {
     let camera_from_mesh = camera.world_from_camera.inverse() * world_from_mesh;
     let (front, middle) = (camera_from_mesh.z_axis.truncate(), camera_from_mesh.w_axis.truncate());
-    // Half the frame's height at a point, and the way from there to the camera.
+    // Half the frame's height at a point, and the direction from the panel to the camera.
     let (half_height, to_camera): (&dyn Fn(Vec3) -> f32, Vec3) = match camera.projection {
         Projection::Perspective { yfov, .. } => (&move |point: Vec3| -point.z * (0.5 * yfov).tan(), -middle),
         Projection::Orthographic { ymag, .. } => (&move |_| ymag, Vec3::Z),

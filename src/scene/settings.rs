@@ -4,19 +4,22 @@ use glam::Vec3;
 
 use super::{Material, Sheen};
 
-/// What a picture is made with beside its scene: shared by every way of rendering it.
+/// What a picture is made with besides its scene, shared by every way of rendering it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
+    /// Which lobes are summed.
     pub lobes: Lobes,
-    /// Emitters that light the scene are drawn.
+    /// Whether emitters that light the scene are drawn.
     pub lights_visible: bool,
-    /// Exposure value: a .png's radiance is multiplied by `2^exposure`. No part of a linear picture.
+    /// Exposure value: radiance is multiplied by `2^exposure` on its way into a .png. Linear pictures do not depend on
+    /// it.
     pub exposure: f32,
     /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
     pub ambient: Vec3,
     /// What is changed in every material.
     pub overrides: Overrides,
-    /// What is changed in these materials (indices into `Scene::materials`); goes before `overrides`.
+    /// What is changed in single materials, by their index into `Scene::materials`; it takes precedence over
+    /// `overrides`.
     pub material_overrides: BTreeMap<usize, Overrides>,
 }
 
@@ -33,20 +36,23 @@ impl Default for Settings {
     }
 }
 
-/// What is changed in a material; what is open stays as it is.
+/// What is changed in a material; what is `None` stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Gives a sheen of this roughness in [0, 1], whatever the textures.
     pub alpha: Option<f32>,
     /// Gives a sheen of this colour, linear Rec. 709 in [0, 1], whatever the textures.
     pub sheen_color: Option<Vec3>,
+    /// How alpha follows from the sheen's roughness.
     pub roughness_map: Option<RoughnessMap>,
+    /// What the sheen's lobe is.
     pub sheen_model: Option<SheenModel>,
+    /// What is left of the base under the sheen.
     pub layering: Option<Layering>,
 }
 
 impl Overrides {
-    /// These, and where they leave something open the others.
+    /// These, and `others` where these are `None`.
     pub fn or(self, others: Self) -> Self {
         Self {
             alpha: self.alpha.or(others.alpha),
@@ -71,7 +77,7 @@ pub enum RoughnessMap {
 }
 
 impl RoughnessMap {
-    /// The power of the roughness that alpha is.
+    /// The exponent e in alpha = roughness^e.
     pub fn exponent(self) -> f32 {
         match self {
             Self::Identity => 1.0,
@@ -86,16 +92,16 @@ impl RoughnessMap {
     }
 }
 
-/// What the sheen's lobe is. In real time the transformed cosine is integrated over lights in closed form; prior work has none, and is summed over
-/// 128 points on each polygon light: to compare with.
+/// What the sheen's lobe is. In real time the transformed cosine is integrated over lights in closed form. Models of
+/// prior work have no closed form: for comparison, they are summed over 128 points on each polygon light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SheenModel {
     /// The fitted transformed cosine (Zeltner, Burley, Chiang 2022).
     #[default]
     Ltc,
-    /// The slab of fibres that it is fitted to, tabulated.
+    /// The slab of fibres to which that is fitted, tabulated.
     Slab,
-    /// The same, walked through path by path.
+    /// The same slab, walked through path by path.
     Walk,
     /// Burley 2012.
     Burley,
@@ -119,11 +125,12 @@ impl SheenModel {
         ("patry", Self::Patry),
     ];
 
+    /// The name that flags give it.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, model)| *model == self).map_or("", |(name, _)| name)
     }
 
-    /// Whether it can be drawn in real time; the others take a path tracer.
+    /// Whether it can be drawn in real time; otherwise it takes a path tracer.
     pub fn is_real_time(self) -> bool {
         !matches!(self, Self::Slab | Self::Walk)
     }
@@ -137,41 +144,48 @@ pub enum Layering {
     Gltf,
     /// 1 - F r(view) with F the layer's weight, whatever its colour: OpenPBR, KHR_materials_fuzz.
     OpenPbr,
-    /// The lesser of 1 - max3(C) r on the view's and on the light's side (Conty Estevez and Kulla 2017).
+    /// The lesser of 1 - max3(C) r(view) and 1 - max3(C) r(light) (Conty Estevez and Kulla 2017).
     Reciprocal,
     /// This share in [0, 1], whatever the sheen.
     Manual(f32),
     /// All of it.
     None,
-    /// What light finds that goes through both, through all orders of scattering: no rule but what rules approximate. Not in real time.
+    /// Light is followed through the layer and the base, through all orders of scattering: what the rules approximate.
+    /// Not in real time.
     Walk,
 }
 
 /// The sheen that a material is drawn with, overrides applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheenLook {
+    /// Its factors.
     pub sheen: Sheen,
+    /// How alpha follows from its roughness.
     pub roughness_map: RoughnessMap,
+    /// What its lobe is.
     pub model: SheenModel,
-    /// Whether the material's textures of colour (and weight) and of roughness still count.
+    /// Whether the material's textures of the sheen's colour and weight still count.
     pub color_is_textured: bool,
+    /// Whether the material's texture of the sheen's roughness still counts.
     pub roughness_is_textured: bool,
 }
 
 impl Settings {
-    /// What is changed in the material of this index.
+    /// What is changed in the material of this index: its own overrides, and where they are `None` those of all
+    /// materials.
     pub fn overrides_of(&self, index: usize) -> Overrides {
         self.material_overrides.get(&index).copied().unwrap_or_default().or(self.overrides)
     }
 
-    /// The sheen that `material`, of this index, is drawn with. What `alpha` and `sheen_color` leave open is the material's
-    /// own; a material without a sheen, or with a black one, is given a white one of roughness 0.5 where either is set.
+    /// The sheen with which `material`, of this index, is drawn; `None` where it has none. What the overrides' `alpha`
+    /// and `sheen_color` leave open is the material's own. Where either is set, a material without a sheen, or with a
+    /// black one, gets a white sheen of roughness 0.5 to start from.
     pub fn sheen_of(&self, index: usize, material: &Material) -> Option<SheenLook> {
         let overrides = self.overrides_of(index);
         let covers = material.sheen.filter(|sheen| sheen.weight > 0.0);
         let own = covers.filter(|sheen| sheen.color != Vec3::ZERO);
         let given = overrides.alpha.is_some() || overrides.sheen_color.is_some();
-        // Black fibres scatter nothing; where their colour does not count they still hide the base.
+        // Black fibres scatter nothing. They still hide the base under a rule by which their colour does not count.
         let hiding = covers.filter(|_| self.layering_of(index) == Layering::OpenPbr);
         let base = own.or_else(|| given.then(|| Sheen::new(Vec3::ONE, 0.5))).or(hiding)?;
         let own = own.or(hiding.filter(|_| !given));
@@ -188,7 +202,7 @@ impl Settings {
         })
     }
 
-    /// How the sheen and the base of the material of this index are put together.
+    /// How the sheen and the base of the material of this index are layered.
     pub fn layering_of(&self, index: usize) -> Layering {
         self.overrides_of(index).layering.unwrap_or_default()
     }
@@ -197,9 +211,13 @@ impl Settings {
 /// Which parts of the surfaces' radiance are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lobes {
+    /// Light scattered by the layer of fibres.
     pub sheen: bool,
+    /// Light scattered by the base.
     pub diffuse: bool,
+    /// Light reflected at the base's surface.
     pub specular: bool,
+    /// What surfaces emit themselves.
     pub emission: bool,
 }
 

@@ -1,8 +1,9 @@
-//! Tangents for normal maps: MikkTSpace's, which tools that make such maps compute too (glTF 2.0, section 3.7.2.1).
+//! Tangents for normal maps: those of MikkTSpace, with which such maps are made (glTF 2.0, section 3.7.2.1).
 //!
-//! Its time grows with the square of the triangles around a vertex and its memory is near 600 bytes a triangle, so
-//! meshes are given to it in blocks, whose seams no picture shows where triangles are that many; and where a vertex is
-//! the hub of very many triangles each vertex gets the mean direction of its triangles instead.
+//! Its time grows with the square of the number of triangles around a vertex, and it takes about 600 bytes per
+//! triangle. So meshes are given to it in blocks; where there are triangles enough for several, no picture shows the
+//! seams between them. And where a vertex is the hub of very many triangles, each vertex gets the mean direction of its
+//! triangles instead.
 
 use std::collections::HashMap;
 
@@ -11,15 +12,16 @@ use glam::{Affine2, DVec2, DVec3, Vec2, Vec3, Vec4};
 
 use super::Mesh;
 
-/// Triangles that are worked on together.
+/// Triangles per block.
 const BLOCK: usize = 1 << 16;
-/// The most triangles around a vertex that MikkTSpace is given: its recursion is as deep.
+/// The most triangles around a vertex that MikkTSpace is given: it recurses as deep as there are.
 const HUB_MAX: u32 = 128;
-/// In place of an index: there is none.
+/// Stands for no index.
 const NONE: u32 = u32::MAX;
 
-/// Gives a mesh tangents along the u of a normal map, as a set of texture coordinates and a transform of them place it; vertices whose
-/// triangles do not agree are split. Where the coordinates leave a direction open it is any that is perpendicular to the normal.
+/// Gives a mesh tangents along the u of a normal map that a set of texture coordinates, transformed, places on it.
+/// Vertices whose triangles disagree are split. Where the coordinates leave a direction open, it is any that is
+/// perpendicular to the normal.
 pub(super) fn compute(mesh: &mut Mesh, set: usize, uv_from_tex_coord: Affine2) {
     if mesh.tex_coords[set].is_empty() {
         mesh.tangents = mesh.normals.iter().map(|&normal| frame(normal, Vec3::ZERO, 1.0)).collect();
@@ -27,7 +29,7 @@ pub(super) fn compute(mesh: &mut Mesh, set: usize, uv_from_tex_coord: Affine2) {
     }
     let coords: Vec<Vec2> = mesh.tex_coords[set].iter().map(|&at| uv_from_tex_coord.transform_point2(at)).collect();
     mesh.tangents = vec![Vec4::ZERO; mesh.positions.len()];
-    // Vertices that have been split hang on the one that they came from.
+    // Vertices that were split off form a list that starts at the one from which they were split.
     let mut next = vec![NONE; mesh.positions.len()];
     for start in (0..mesh.indices.len()).step_by(3 * BLOCK) {
         let end = (start + 3 * BLOCK).min(mesh.indices.len());
@@ -38,8 +40,8 @@ pub(super) fn compute(mesh: &mut Mesh, set: usize, uv_from_tex_coord: Affine2) {
     }
 }
 
-/// Gives a mesh the tangents of its file, made perpendicular to the normals and unit; not if one of them leaves no
-/// direction.
+/// Gives a mesh the tangents of its file, made perpendicular to the normals and unit, and returns true. Where one of
+/// them leaves no direction, the mesh gets none, and the result is false.
 pub(super) fn adopt(mesh: &mut Mesh, tangents: &[Vec4]) -> bool {
     let frames = mesh.normals.iter().zip(tangents).map(|(&normal, &tangent)| {
         let handedness = if tangent.w < 0.0 { -1.0 } else { 1.0 };
@@ -51,7 +53,7 @@ pub(super) fn adopt(mesh: &mut Mesh, tangents: &[Vec4]) -> bool {
     is_whole
 }
 
-/// The vertex like `vertex` that has `tangent`: itself, one split off before, or a new one.
+/// The vertex that is like `vertex` and has `tangent`: that vertex itself, one split off before, or a new one.
 fn vertex_with(mesh: &mut Mesh, next: &mut Vec<u32>, vertex: u32, tangent: Vec4) -> u32 {
     let mut at = vertex;
     loop {
@@ -86,7 +88,7 @@ fn vertex_with(mesh: &mut Mesh, next: &mut Vec<u32>, vertex: u32, tangent: Vec4)
 fn across(normal: Vec3, direction: Vec3) -> Option<Vec3> {
     let (normal, direction) = (normal.as_dvec3(), direction.as_dvec3().try_normalize()?);
     let across = direction - normal * normal.dot(direction);
-    // What rounding leaves of a direction along the normal is none.
+    // What rounding leaves of a direction along the normal does not count.
     (across.length() > 1e-6).then(|| across.normalize().as_vec3())
 }
 
@@ -99,7 +101,7 @@ struct Block<'a> {
     mesh: &'a Mesh,
     coords: &'a [Vec2],
     indices: &'a [u32],
-    /// One a corner.
+    /// One per corner.
     tangents: Vec<Vec4>,
 }
 
@@ -115,12 +117,12 @@ impl<'a> Block<'a> {
         }
         let fallback = |&vertex: &u32| frame(self.mesh.normals[vertex as usize], Vec3::ZERO, 1.0);
         self.tangents = self.indices.iter().map(fallback).collect();
-        // It has no way to fail.
+        // It cannot fail: its result has no error to tell.
         let _ = generate_tangents(&mut self);
         self.tangents
     }
 
-    /// Whether very many triangles meet in a vertex, equal vertices taken for one as MikkTSpace does.
+    /// Whether very many triangles meet in a vertex, where equal vertices count as one, as they do for MikkTSpace.
     fn has_hub(&self) -> bool {
         let mut uses: HashMap<[u32; 8], u32> = HashMap::new();
         self.indices.iter().any(|&vertex| {
@@ -133,7 +135,7 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// The mean direction of u at each vertex, triangles weighted by their size (Lengyel 2001).
+    /// For each corner, the mean direction of u around its vertex, triangles weighted by their size (Lengyel 2001).
     fn means(&self) -> Vec<Vec4> {
         let mut sums: HashMap<u32, (DVec3, f64)> = HashMap::new();
         for triangle in self.indices.as_chunks::<3>().0 {
@@ -160,8 +162,8 @@ impl<'a> Block<'a> {
     }
 }
 
-/// glTF's v runs downwards in the image and the y of its normal maps upwards: where u and v turn as the triangle does,
-/// the frame is a left-handed one.
+/// The sign of the bitangent. In glTF, v runs downwards in the image and y upwards in normal maps: where a triangle
+/// winds the same way in texture coordinates as it does seen from its front, the frame is left-handed.
 fn handedness(uv_turns_with_triangle: bool) -> f32 {
     if uv_turns_with_triangle { -1.0 } else { 1.0 }
 }

@@ -1,4 +1,4 @@
-//! What a surface is made of at a point, and the frame that it is seen in.
+//! What a surface is made of at a point, and the frame in which it is seen.
 
 use glam::{DMat3, DVec3};
 
@@ -6,7 +6,7 @@ use super::world::{Hit, World};
 use crate::bvh::Ray;
 use crate::scene::{Layering, Settings, SheenModel, TextureSlot};
 
-/// A point of a surface as it is seen from one direction, factors and textures multiplied.
+/// A point of a surface as it is seen from one direction, with factors and textures multiplied.
 pub(super) struct Surface {
     pub p_world: DVec3,
     /// Where rays from it start.
@@ -14,21 +14,22 @@ pub(super) struct Surface {
     /// Columns x, y, z: z is the shading normal on the view's side of the surface, x lies towards the view's
     /// projection.
     pub world_from_local: DMat3,
-    /// The direction to the view in that frame, y = 0; on the horizon where the shading normal turns away from it.
+    /// The direction to the view in that frame, with y = 0; on the horizon where the shading normal turns away from the
+    /// view.
     pub wi: DVec3,
-    /// The normal without the normal map, in that frame.
+    /// The interpolated normal, without the normal map, in that frame.
     pub up: DVec3,
     pub material: usize,
     pub base_color: DVec3,
     pub metallic: f64,
     pub roughness: f64,
-    /// Of the dielectric base.
+    /// Reflectance of the dielectric base, head on and, below, at grazing angles.
     pub f0: DVec3,
     pub f90: f64,
     pub sheen: Option<SheenAt>,
     pub emission: DVec3,
     pub unlit: bool,
-    /// What the occlusion texture leaves of light from the environment.
+    /// The share that the occlusion texture leaves of light from the environment.
     pub occlusion: f64,
 }
 
@@ -49,7 +50,7 @@ impl SheenAt {
         self.model == SheenModel::Walk || self.layering == Layering::Walk
     }
 
-    /// `C_sheen` where the layer is.
+    /// `C_sheen` of the layer itself, without the weight.
     pub fn tint(&self) -> DVec3 {
         if self.weight > 0.0 { self.color / self.weight } else { DVec3::ZERO }
     }
@@ -87,7 +88,7 @@ impl Surface {
                 * texel(TextureSlot::BaseColor).map_or(DVec3::ONE, |texel| texel.truncate()),
             metallic: f64::from(material.metallic) * rough.map_or(1.0, |texel| texel.z),
             roughness: f64::from(material.roughness) * rough.map_or(1.0, |texel| texel.y),
-            // Tints may be greater than 1.
+            // Tints may be above 1.
             f0: (material.dielectric_f0().as_dvec3() * strength * tint).min(DVec3::splat(f90)),
             f90,
             sheen: sheen(world, settings, hit),
@@ -125,7 +126,7 @@ fn sheen(world: &World, settings: &Settings, hit: &Hit) -> Option<SheenAt> {
     })
 }
 
-/// The interpolated normal, and the unit one that shading takes: the normal map's where there is one.
+/// The interpolated normal, and the unit normal for shading: the normal map's, where there is one.
 fn normals(world: &World, hit: &Hit, scale: f64) -> (DVec3, DVec3) {
     let (normal, tangent) = world.directions(hit);
     let plain = normal.normalize_or(DVec3::Z);
@@ -138,7 +139,8 @@ fn normals(world: &World, hit: &Hit, scale: f64) -> (DVec3, DVec3) {
     (normal, mapped.try_normalize().unwrap_or(plain))
 }
 
-/// Columns x, y, z: z is the normal, x lies towards the view's projection on the surface; anywhere where there is none.
+/// Columns x, y, z: z is the normal, x points towards the view's projection on the surface, or anywhere where it has
+/// none.
 fn frame(normal: DVec3, view: DVec3) -> DMat3 {
     let across = view - normal * normal.dot(view);
     let x = if across.length_squared() > 1e-24 { across.normalize() } else { normal.any_orthonormal_vector() };

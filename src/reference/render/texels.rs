@@ -1,28 +1,19 @@
-//! Textures looked up in `f64`: bilinear in the full image, no mipmaps: pixels that see many texels average them by their samples.
+//! Textures looked up in `f64`, in the full image, without mipmaps: a pixel that sees many texels averages them by its
+//! samples.
 
 use std::sync::LazyLock;
 
 use glam::{DVec2, DVec4};
 
-use crate::scene::{Filter, Image, Sampler, linear_from_srgb};
+use crate::scene::{Image, Sampler, linear_from_srgb};
 
 /// Linear light of the sRGB codes.
 static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as u8).into()));
 
-/// A texture's red, green, blue, alpha at (u, v), filtered as where it is magnified; `is_color` where the first three are sRGB.
+/// A texture's red, green, blue and alpha at (u, v), filtered as where it is magnified, each in [0, 1]. `is_color` says
+/// that the first three are stored in sRGB; they come out linear.
 pub(super) fn texel(image: &Image, sampler: Sampler, is_color: bool, uv: DVec2) -> DVec4 {
-    let size = DVec2::new(image.width.into(), image.height.into());
-    let place = uv * size - 0.5;
-    // Further away there are no fractions left; what is not finite is anywhere.
-    let place = if place.abs().max_element() < 1e15 { place } else { DVec2::ZERO };
-    let place = if sampler.magnify == Filter::Nearest { place.round() } else { place };
-    let (corner, fraction) = (place.floor(), place - place.floor());
-    let sides = [image.width, image.height];
-    let [columns, rows] =
-        [0, 1].map(|axis| [0, 1].map(|step| sampler.wrap[axis].texel(corner[axis] as i64 + step, sides[axis].into())));
-    let at = |x: usize, y: usize| decoded(image.texels[y * image.width as usize + x], is_color);
-    let [upper, lower] = rows.map(|y| at(columns[0], y).lerp(at(columns[1], y), fraction.x));
-    upper.lerp(lower, fraction.y)
+    sampler.magnified([image.width, image.height], uv, |at| decoded(image.texels[at], is_color))
 }
 
 fn decoded(codes: [u8; 4], is_color: bool) -> DVec4 {
@@ -35,7 +26,6 @@ fn decoded(codes: [u8; 4], is_color: bool) -> DVec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Wrap;
 
     fn image() -> Image {
         let texels = vec![[0, 0, 0, 255], [255, 0, 0, 255], [0, 255, 0, 0], [188, 0, 255, 0]];
@@ -53,16 +43,5 @@ mod tests {
         // Repeated: half of the last column, half of the first.
         assert_eq!(look(1.0, 0.25, false), look(0.0, 0.25, false));
         assert!(look(f64::NAN, f64::INFINITY, false).is_finite());
-    }
-
-    #[test]
-    fn sampler_flags_count() {
-        let sampler = |wrap, magnify| Sampler { wrap: [wrap; 2], magnify, ..Sampler::DEFAULT };
-        let look = |sampler, u: f64| texel(&image(), sampler, false, DVec2::new(u, 0.25)).x;
-        assert_eq!(look(sampler(Wrap::Clamp, Filter::Linear), 5.0), 1.0);
-        assert_eq!(look(sampler(Wrap::Mirror, Filter::Linear), 1.25), 1.0);
-        assert_eq!(look(sampler(Wrap::Repeat, Filter::Linear), 1.25), 0.0);
-        assert_eq!(look(sampler(Wrap::Repeat, Filter::Nearest), 0.45), 0.0);
-        assert_eq!(look(sampler(Wrap::Repeat, Filter::Nearest), 0.55), 1.0);
     }
 }

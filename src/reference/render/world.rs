@@ -1,4 +1,4 @@
-//! A scene's surfaces as rays meet them: all instances' triangles in the world.
+//! A scene's surfaces as rays meet them: the triangles of all instances, in the world.
 
 use std::ops::ControlFlow;
 
@@ -8,30 +8,30 @@ use rayon::prelude::*;
 use super::error::ReferenceError;
 use super::texels::texel;
 use crate::bvh::{Bvh, Meeting, Ray, Triangle};
-use crate::scene::{AlphaMode, Material, Mesh, Scene, Settings, TextureSlot};
+use crate::scene::{AlphaMode, DrawnInstances, Instance, Material, Mesh, Scene, Settings, TextureSlot};
 
-/// Most triangles of all instances together: some 120 bytes each.
+/// The most triangles of all instances together; each takes about 120 bytes.
 const TRIANGLES_MAX: usize = 1 << 25;
-/// Blended surfaces that a ray goes through before what lies behind counts for nothing.
+/// The share of light below which what lies behind blended surfaces counts for nothing.
 const OPACITY_LEAST: f64 = 1e-6;
 
-/// The triangles of a scene, each where it is.
+/// The triangles of a scene, each where it stands in the world.
 pub(super) struct World<'a> {
     pub scene: &'a Scene,
     places: Vec<Place>,
     bvh: Bvh<Triangle>,
-    /// The distance below which a ray does not meet what it starts on.
+    /// The distance in metres within which a ray does not meet the surface on which it starts.
     pub apart: f64,
 }
 
-/// An instance's transforms.
+/// An instance in the world.
 struct Place {
     world_from_mesh: DMat4,
     world_from_normal: DMat3,
     mirrors: bool,
-    /// Where textures are white.
+    /// Emitted radiance where textures are white.
     emission: DVec3,
-    /// Its emission is that of a light: it is looked for.
+    /// Whether its emission is a light's, which is sampled.
     is_light: bool,
 }
 
@@ -41,31 +41,26 @@ pub(super) struct Hit {
     pub distance: f64,
     triangle: usize,
     weights: [f64; 3],
-    /// The ray meets the front face.
+    /// Whether the ray meets the front face.
     pub front: bool,
     pub opacity: f64,
 }
 
 impl<'a> World<'a> {
     pub fn new(scene: &'a Scene, settings: &Settings) -> Result<Self, ReferenceError> {
-        let mut lights = vec![None; scene.instances.len()];
-        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        let is_drawn = |index: usize| lights[index].is_none() || settings.lights_visible;
-        let drawn: Vec<usize> = (0..scene.instances.len()).filter(|&index| is_drawn(index)).collect();
+        let instances = DrawnInstances::new(scene, settings);
+        let drawn: Vec<usize> = (0..scene.instances.len()).filter(|&index| instances.is_drawn(index)).collect();
         let count = |&index: &usize| scene.meshes[scene.instances[index].mesh].indices.len() / 3;
         let triangles: usize = drawn.iter().map(count).sum();
         if triangles > TRIANGLES_MAX {
             return Err(ReferenceError::Triangles { triangles, most: TRIANGLES_MAX });
         }
-        let place = |(index, instance): (usize, &crate::scene::Instance)| {
-            let material = &scene.materials[scene.meshes[instance.mesh].material];
-            Place {
-                world_from_mesh: instance.world_from_mesh.as_dmat4(),
-                world_from_normal: instance.world_from_normal().as_dmat3(),
-                mirrors: instance.mirrors(),
-                emission: lights[index].map_or(material.emission, |light| light.emission()).as_dvec3(),
-                is_light: lights[index].is_some(),
-            }
+        let place = |(index, instance): (usize, &Instance)| Place {
+            world_from_mesh: instance.world_from_mesh.as_dmat4(),
+            world_from_normal: instance.world_from_normal().as_dmat3(),
+            mirrors: instance.mirrors(),
+            emission: instances.emission(index).as_dvec3(),
+            is_light: instances.light(index).is_some(),
         };
         let places: Vec<Place> = scene.instances.iter().enumerate().map(place).collect();
         let of_instance = |&index: &usize| {
@@ -97,7 +92,7 @@ impl<'a> World<'a> {
         &self.scene.materials[self.mesh_of(triangle).material]
     }
 
-    /// What a meeting is, unless nothing is there: a mask's hole.
+    /// What a ray has met; `None` where nothing is there: in a mask's hole.
     fn hit(&self, ray: &Ray, meeting: &Meeting<[f64; 2]>) -> Option<Hit> {
         let triangle = &self.bvh.primitives()[meeting.index];
         let [u, v] = meeting.place;
@@ -119,7 +114,7 @@ impl<'a> World<'a> {
         Some(Hit { distance: meeting.distance, triangle: meeting.index, weights, front, opacity })
     }
 
-    /// The nearest surface that is seen along a ray between two distances: not the backs of one-sided ones.
+    /// The nearest surface that is seen along a ray between two distances; one-sided surfaces are not seen from behind.
     pub fn nearest_seen(&self, ray: &Ray, range: [f64; 2]) -> Option<Hit> {
         self.nearest_of(ray, range, |hit| hit.front || self.material(hit).double_sided)
     }
@@ -129,7 +124,7 @@ impl<'a> World<'a> {
         self.nearest_of(ray, range, |_| true)
     }
 
-    /// The nearest hit between two distances of those that count.
+    /// The nearest hit, of those that count, between two distances.
     fn nearest_of(&self, ray: &Ray, range: [f64; 2], counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut nearest = None;
         self.bvh.nearest(ray, range, |meeting| {
@@ -140,8 +135,9 @@ impl<'a> World<'a> {
         nearest
     }
 
-    /// The share of light that passes along a ray between two distances: what is opaque stops it, from the front and from behind,
-    /// what is blended takes its opacity. The instance `own` counts only up to `own_until`.
+    /// The share of light, in [0, 1], that passes along a ray between two distances. What is opaque stops it, from the
+    /// front and from behind; what is blended takes the share that is its opacity. The instance `own` counts only up to
+    /// the distance `own_until`.
     pub fn passing(&self, ray: &Ray, range: [f64; 2], (own, own_until): (usize, f64)) -> f64 {
         let mut share = 1.0;
         let stopped = self.bvh.visit(ray, range, |meeting| {
@@ -185,7 +181,7 @@ impl<'a> World<'a> {
         f64::from(material.opacity) * texel.map_or(1.0, |texel| texel.w) * self.color_of(triangle, weights).w
     }
 
-    /// What the slot's texture holds at a hit; none where there is no texture.
+    /// What the slot's texture shows at a hit; `None` where there is no texture.
     pub fn texel(&self, hit: &Hit, slot: TextureSlot) -> Option<DVec4> {
         self.texel_of(&self.bvh.primitives()[hit.triangle], self.material(hit), hit.weights, slot)
     }
@@ -207,7 +203,7 @@ impl<'a> World<'a> {
         Some(texel(&self.scene.images[texture.image], texture.sampler, slot.is_color(), uv))
     }
 
-    /// The vertices' colour and opacity.
+    /// The vertices' colour and opacity, interpolated; white and 1 where they have none.
     pub fn color(&self, hit: &Hit) -> DVec4 {
         self.color_of(&self.bvh.primitives()[hit.triangle], hit.weights)
     }
@@ -253,8 +249,9 @@ impl<'a> World<'a> {
         self.corners(triangle).map(|corner| normal(corner).normalize_or_zero())
     }
 
-    /// Where rays from a hit start: where the normals curve outwards, lifted off the flat triangle onto the surface that it stands
-    /// for, so that facets do not shade each other where light grazes (Hanika 2021, "Hacking the shadow terminator").
+    /// Where rays from a hit start. Where the normals curve outwards, that is off the flat triangle, on the curved
+    /// surface for which it stands, so that facets do not shade each other in grazing light (Hanika 2021, "Hacking the
+    /// shadow terminator").
     pub fn lifted(&self, hit: &Hit, p_world: DVec3) -> DVec3 {
         let triangle = &self.bvh.primitives()[hit.triangle];
         let place = &self.places[triangle.instance as usize];
@@ -265,7 +262,7 @@ impl<'a> World<'a> {
             .map(|((corner, normal), weight)| {
                 let corner = place.world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());
                 let normal = sign * normal;
-                // Down to the tangent plane of the corner, where the point lies below it.
+                // Up to the tangent plane of the corner, where the point is below it.
                 weight * -(p_world - corner).dot(normal).min(0.0) * normal
             })
             .sum();

@@ -1,4 +1,4 @@
-//! Typed reading of accessors, every range checked.
+//! Accessors read as typed values, with every range checked.
 
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked::Valid;
@@ -9,22 +9,22 @@ use super::buffers::{self, Bytes};
 use super::elements::{Elements, Sparse, decoder, unsigned};
 use crate::scene::error::label;
 
-/// Accessors may share the indices of their sparse elements, each of which is looked at: they get this many times the
-/// bytes of all buffers, where those that share nothing need less than one.
+/// Accessors may share the indices of their sparse elements, and each index is looked at. So many times the bytes of
+/// all buffers may be looked at in all; accessors that share nothing need less than once.
 const SPARSE_SHARING: u64 = 16;
 
-/// The accessors of a file with what they read.
+/// The accessors of a file, with the bytes that they read.
 pub struct Accessors<'a> {
     pub root: &'a Root,
     pub buffers: &'a [Bytes<'a>],
 }
 
-/// Which components stand for numbers of a kind. All may be floats.
+/// Which types of components are accepted for numbers of a kind. Floats always are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Numbers {
-    /// Nothing else.
+    /// Only floats.
     Floats,
-    /// Integers of 8 or 16 bits as they are, or normalized where the accessor says so.
+    /// Integers of 8 or 16 bits, as they are or, where the accessor says so, normalized.
     Quantized,
     /// Signed integers of 8 or 16 bits, normalized.
     Signed,
@@ -51,7 +51,8 @@ struct Layout {
 }
 
 impl<'a> Accessors<'a> {
-    /// Checks the layout of every accessor, read or not, against its view, and every view against its buffer.
+    /// Checks the layout of every accessor against its view, whether it is read or not, and every view against its
+    /// buffer.
     pub fn check(&self) -> Result<(), Fault> {
         for (index, view) in self.root.buffer_views.iter().enumerate() {
             let place = || label("bufferView", index, view.name.as_deref());
@@ -77,7 +78,7 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Checks that the sparse indices of an accessor increase and stand for elements that it has.
+    /// Checks that the sparse indices of an accessor increase and that it has the elements of these indices.
     fn check_sparse(&self, index: usize, budget: &mut u64) -> Result<(), Fault> {
         let accessor = self.get(index)?;
         let Some(sparse) = self.sparse(index)? else { return Ok(()) };
@@ -93,7 +94,7 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// `N` finite numbers for each element: those `used`, or all.
+    /// `N` finite numbers for each element, of those in `used` or of all.
     pub fn read<T: From<[f32; N]>, const N: usize>(
         &self,
         index: usize,
@@ -127,12 +128,12 @@ impl<'a> Accessors<'a> {
         Ok((0..elements.count).map(|at| unsigned(elements.get(at))).collect())
     }
 
-    /// How many elements can be read. As many as the file says: where there is no view, none of its bytes stand for them.
+    /// How many elements can be read: as many as the file says, which without a view may be far more than it has bytes.
     pub fn count(&self, index: usize) -> Result<usize, Fault> {
         Ok(self.elements(index)?.count)
     }
 
-    /// Whether there are elements to be read: a compressed mesh may have none.
+    /// Whether there is data to be read: in a compressed mesh there may be none.
     pub fn has_data(&self, index: usize) -> bool {
         self.root
             .accessors
@@ -172,7 +173,7 @@ impl<'a> Accessors<'a> {
         Fault::at(label("accessor", index, name), "its type or componentType is none of glTF's; export the file again")
     }
 
-    /// The elements, all there.
+    /// The elements; an error where there is no data for them.
     fn elements(&self, index: usize) -> Result<Elements<'a>, Fault> {
         let accessor = self.get(index)?;
         if !self.has_data(index) {
@@ -185,13 +186,13 @@ impl<'a> Accessors<'a> {
         let Some(Layout { offset, stride }) = self.layout(index)? else {
             return Ok(Elements { bytes: None, stride: 0, size, count, sparse });
         };
-        // No more than the view's length, which is that of bytes in memory.
+        // Neither is more than the view's length, and that many bytes are in memory.
         let [offset, stride] = [offset, stride].map(|bytes| bytes as usize);
         let view = accessor.buffer_view.and_then(|view| buffers::view(self.root, self.buffers, view.value()));
         Ok(Elements { bytes: view.map(|bytes| &bytes[offset..]), stride, size, count, sparse })
     }
 
-    /// Bytes of one element.
+    /// The bytes of one element.
     fn size(&self, index: usize) -> Result<usize, Fault> {
         let accessor = self.get(index)?;
         match (accessor.component_type, accessor.type_) {
@@ -200,7 +201,7 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Where the elements lie, none where there is no view. They lie within the view.
+    /// Where the elements lie, which is within the view; `None` where there is no view.
     fn layout(&self, index: usize) -> Result<Option<Layout>, Fault> {
         let accessor = self.get(index)?;
         let wrong = |what: String| {
@@ -228,7 +229,7 @@ impl<'a> Accessors<'a> {
         Ok(Some(Layout { offset, stride }))
     }
 
-    /// The elements of an accessor that stand in for others; they lie within their views.
+    /// The elements of an accessor that replace others; they lie within their views.
     fn sparse(&self, index: usize) -> Result<Option<Sparse<'a>>, Fault> {
         let accessor = self.get(index)?;
         let Some(sparse) = &accessor.sparse else { return Ok(None) };

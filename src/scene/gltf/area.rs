@@ -1,4 +1,4 @@
-//! EXT_lights_area (draft of 2026): rectangles and disks that shine to one side.
+//! EXT_lights_area (the draft of 2026): rectangles and disks that shine to one side.
 
 use std::f32::consts::PI;
 
@@ -14,12 +14,12 @@ use crate::scene::notices::Notices;
 use crate::scene::{Instance, Scene, emitter};
 
 const EXTENSION: &str = "EXT_lights_area";
-/// The most that are drawn: as many rectangles as a scene's corners allow.
+/// The most lights that are drawn: as many rectangles as a scene's corners allow.
 const LIGHTS_MAX: usize = 2048;
-/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's; its outline is within 0.4% of
-/// the radius of the circle. Wherever the point that it lights is a tenth of the radius or more away from it, the form
-/// factor of the cosine is wrong by less than 6e-4 (of 1 for the whole hemisphere), that of a sheen's lobe by less than
-/// 1.3e-3 (a = 0.6, b = -0.2) to 1.1e-2 (a = 0.15, b = -0.8); measured against 4096 sides. 256 disks fit in a scene.
+/// A disk lights and is drawn as a regular polygon of so many sides and of the disk's area; its outline is within 0.4%
+/// of the radius of the circle. For a point at least a tenth of the radius away from the disk, the form factor of the
+/// cosine is off by less than 6e-4 (where the whole hemisphere is 1), that of a sheen's lobe by less than 1.3e-3 (a =
+/// 0.6, b = -0.2) to 1.1e-2 (a = 0.15, b = -0.8), measured against 4096 sides. 256 disks fit in a scene.
 const DISK_SIDES: u16 = 32;
 
 #[derive(Deserialize)]
@@ -57,12 +57,12 @@ fn thousand() -> f32 {
     1000.0
 }
 
-/// What a light looks like, before a node places it.
+/// What a light looks like before a node places it.
 struct Emitter {
     name: String,
     corners: Vec<Vec2>,
     radiance: Vec3,
-    /// The scene's, once one is placed.
+    /// Index into the scene's meshes, once one is placed.
     mesh: Option<usize>,
 }
 
@@ -87,14 +87,14 @@ impl Light {
     }
 }
 
-/// A regular polygon about the origin of the area of a disk, counter-clockwise.
+/// A regular polygon about the origin with the area of a disk, counter-clockwise.
 fn disk(radius: f32, sides: u16) -> Vec<Vec2> {
     let angle = 2.0 * PI / f32::from(sides);
     let reach = radius * (angle / angle.sin()).sqrt();
     (0..sides).map(|side| reach * Vec2::from_angle(angle * f32::from(side))).collect()
 }
 
-/// Adds an emitter for each light at the scene's nodes. All lights are checked, placed or not.
+/// Adds an emitter for each light at the scene's nodes. All lights are checked, whether placed or not.
 pub fn add(root: &Root, placed: &[Placed], scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
     let read = |(index, light): (usize, &Light)| {
@@ -137,8 +137,8 @@ pub fn add(root: &Root, placed: &[Placed], scene: &mut Scene, notices: &mut Noti
     Ok(())
 }
 
-/// Where a polygon that shines to its +z stands at a node: turned to shine to the node's -z, as large as the longest of
-/// the node's axes. A scale does not mirror it: the extension takes the scale to be uniform and positive.
+/// Places a polygon that shines towards its +z at a node: turned to shine towards the node's -z, and scaled by the
+/// longest of the node's axes. A scale never mirrors it: the extension takes scales to be uniform and positive.
 fn world_from_mesh(place: &Placed) -> DAffine3 {
     let axes = place.world_from_node.matrix3;
     let scale = axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length());

@@ -1,4 +1,4 @@
-//! Meshes and instances of a scene, out of its placed nodes.
+//! A scene's meshes and instances, made from its placed nodes.
 
 use std::collections::HashMap;
 
@@ -14,14 +14,14 @@ use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Bounds, Instance, Mesh, Scene};
 
-/// A few bytes of a file put a mesh of many primitives at one more node.
+/// The most instances: with a few bytes a file puts a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
-/// Metres from the origin within which things stand: beyond the Moon, and with lights set up around them the cube of all
-/// distances fits in 32-bit floats.
+/// Metres from the origin within which things must stand: farther than the Moon, and near enough for the cube of any
+/// distance, with lights set up around the things, to fit in 32-bit floats.
 const REACH: f64 = 1e10;
-/// A transform whose axes, made unit, span less than this much volume has no inverse in 32-bit floats.
+/// A transform whose axes, made unit, span less than this volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
-/// Shortest axis of a transform: the square of anything shorter is nothing in 32-bit floats.
+/// Shortest axis of a transform in metres: the square of anything shorter is lost in 32-bit floats.
 const SHORTEST: f64 = 1e-18;
 
 /// `mesh 3 "sleeve" primitive 0`.
@@ -36,19 +36,19 @@ pub struct Assembly<'a> {
     reader: Reader<'a>,
     scene: &'a mut Scene,
     notices: &'a mut Notices,
-    /// What each of the file's meshes has become: indices into the scene's, and their bounds.
+    /// What each of the file's meshes has become: indices into the scene's meshes, and their bounds.
     meshes: HashMap<usize, Vec<(usize, Bounds)>>,
     default_material: Option<usize>,
 }
 
 impl<'a> Assembly<'a> {
-    /// `scene` holds the file's materials.
+    /// `scene` holds the file's materials already.
     pub fn new(accessors: Accessors<'a>, scene: &'a mut Scene, notices: &'a mut Notices) -> Self {
         let (root, reader) = (accessors.root, Reader::new(accessors));
         Self { root, reader, scene, notices, meshes: HashMap::new(), default_material: None }
     }
 
-    /// Adds an instance for each primitive at a node, and the meshes that these show.
+    /// Adds an instance for each primitive at a node, and the meshes of these instances.
     pub fn add(mut self, placed: &[Placed]) -> Result<(), Fault> {
         let mut skins = Skins::new(self.root, placed);
         for &Placed { node: index, world_from_node, .. } in placed {
@@ -79,7 +79,7 @@ impl<'a> Assembly<'a> {
         Ok(())
     }
 
-    /// Reads a mesh of the file unless that has been done.
+    /// Reads a mesh of the file, unless it has been read already.
     fn load(&mut self, mesh: usize) -> Result<(), Fault> {
         if self.meshes.contains_key(&mesh) {
             return Ok(());
@@ -106,7 +106,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// Whether `points` stand, placed, where 32-bit floats can work with them; else what is wrong.
+/// Checks that `points`, once placed, stand where 32-bit floats can work with them; else says what is wrong.
 pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N]) -> Result<(), String> {
     let matrix = world_from_node.matrix3;
     let entries = matrix.to_cols_array().into_iter().chain(world_from_node.translation.to_array());
@@ -117,7 +117,7 @@ pub fn check_reach<const N: usize>(world_from_node: DAffine3, points: [Vec3; N])
     }
 }
 
-/// Scaled to nothing along some axis: glTF's way to hide a thing.
+/// Whether a transform scales to nothing along some axis: glTF's way to hide a thing.
 pub fn is_singular(world_from_node: DAffine3) -> bool {
     let matrix = world_from_node.matrix3;
     let lengths = [matrix.x_axis.length(), matrix.y_axis.length(), matrix.z_axis.length()];

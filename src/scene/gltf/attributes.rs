@@ -1,4 +1,4 @@
-//! Which attributes of a primitive are kept, and what they read.
+//! Which attributes of a primitive are kept, and how they are read.
 
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
@@ -12,11 +12,11 @@ use crate::scene::{Material, TextureSlot, TextureUse};
 
 const WHITE: [u16; 4] = [u16::MAX; 4];
 
-/// The accessors of a primitive's attributes, of those that its material needs.
+/// The accessors of those of a primitive's attributes that its material needs.
 pub struct Attributes {
     pub positions: usize,
     pub normals: Option<usize>,
-    /// Only with normals of the file's: tangents are meaningless beside others.
+    /// Only where the file has normals: tangents mean nothing beside other ones.
     tangents: Option<usize>,
     tex_coords: [Option<usize>; 2],
     colors: Option<usize>,
@@ -25,7 +25,7 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// None without positions. `place` is the primitive's, for notices.
+    /// `None` without positions. `place` is where notices say that the primitive is.
     pub fn of(primitive: &Primitive, material: &Material, notices: &mut Notices, place: &str) -> Option<Self> {
         let get = |semantic| primitive.attributes.get(&Valid(semantic)).map(|accessor| accessor.value());
         for semantic in primitive.attributes.keys() {
@@ -53,7 +53,7 @@ impl Attributes {
         })
     }
 
-    /// The number of vertices, after a check that all attributes have as many.
+    /// The number of vertices, after a check that all attributes have that many.
     pub fn count(&self, accessors: &Accessors) -> Result<usize, Fault> {
         let count = accessors.count(self.positions)?;
         let [first, second] = self.tex_coords;
@@ -80,7 +80,7 @@ impl Attributes {
         2 * size_of::<Vec3>() + coords + tangents + self.colors.map_or(0, |_| size_of_val(&WHITE))
     }
 
-    /// Whether every triangle may be given vertices of its own.
+    /// Whether every triangle may have to be given vertices of its own.
     pub fn may_split(&self) -> bool {
         self.normals.is_none() || self.normal_map.is_some()
     }
@@ -96,7 +96,7 @@ impl Attributes {
         self.tangents.map(|tangents| accessors.read(tangents, Type::Vec4, Numbers::Signed, used)).transpose()
     }
 
-    /// Colours and opacities; empty where all are 1.
+    /// Colours and opacities; empty where there are none or all are 1.
     pub fn read_colors(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<[u16; 4]>, Fault> {
         let Some(colors) = self.colors else { return Ok(Vec::new()) };
         let colors: Vec<Unorm> = if accessors.is_of(colors, Type::Vec3) {
@@ -109,7 +109,7 @@ impl Attributes {
     }
 }
 
-/// Numbers in [0, 1] (those outside are taken to its ends) as the nearest of 65536 steps.
+/// Numbers clamped to [0, 1], as the nearest of 65536 steps.
 struct Unorm([u16; 4]);
 
 impl From<[f32; 4]> for Unorm {

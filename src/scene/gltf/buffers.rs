@@ -18,10 +18,10 @@ use super::container::Document;
 use super::extensions;
 use crate::scene::error::label;
 
-/// The most that is read from one file: what a .glb can say of its own length.
+/// The most bytes that are read from one file: the greatest length that a .glb can state.
 const FILE_BYTES_MAX: u64 = u32::MAX as u64;
 
-/// The most memory that is asked for on a file system's word alone.
+/// The most bytes of memory that are reserved on the file system's word alone.
 const RESERVE_MAX: u64 = 1 << 28;
 
 /// A buffer's bytes.
@@ -42,10 +42,10 @@ impl Deref for Bytes<'_> {
     }
 }
 
-/// The files that were read, by their paths.
+/// The files that have been read, by their paths.
 pub type Files = HashMap<PathBuf, Rc<Vec<u8>>>;
 
-/// Reads a file that must be an ordinary one: no folder, and nothing that never ends.
+/// Reads a file, which must be an ordinary one: not a folder, and nothing that never ends.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
     let unreadable = |error: std::io::Error| Fault::new(format_args!("can't be read ({error}); check the path"));
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -59,16 +59,16 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, Fault> {
         let length = metadata.len();
         return Err(Fault::new(format_args!("{length} bytes long; files of up to {FILE_BYTES_MAX} are served")));
     }
-    // What is said to be long need not be: room is made for so much at first, and for more as it comes.
+    // What is said to be long need not be: some room is made at first, and more as bytes arrive.
     let mut bytes = Vec::with_capacity(metadata.len().min(RESERVE_MAX) as usize);
     File::open(path).and_then(|file| file.take(FILE_BYTES_MAX).read_to_end(&mut bytes)).map_err(unreadable)?;
     Ok(bytes)
 }
 
-/// The bytes of every buffer, each as long as the file says. `folder` is where external ones stand; without one there
-/// are none.
+/// The bytes of every buffer, each at least as long as the file says. External buffers are in `folder`; without it,
+/// none are read.
 pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<Bytes<'a>>, Fault> {
-    // The same file may stand behind many buffers: its bytes are held once.
+    // Many buffers may name the same file: its bytes are held once.
     let mut files = Files::new();
     let mut buffers = Vec::with_capacity(document.root.buffers.len());
     for (index, buffer) in document.root.buffers.iter().enumerate() {
@@ -93,7 +93,7 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
     Ok(buffers)
 }
 
-/// What a URI stands for: a file in `folder`, read once, or the data in the URI itself.
+/// The bytes that a URI stands for: a file in `folder`, read only once, or the data in the URI itself.
 pub fn fetch(uri: &str, folder: Option<&Path>, files: &mut Files) -> Result<Rc<Vec<u8>>, Fault> {
     if let Some(data) = uri.strip_prefix("data:") {
         return decode(data).map(Rc::new);
@@ -116,7 +116,7 @@ fn decode(data: &str) -> Result<Vec<u8>, Fault> {
     STANDARD.decode(encoded).map_err(broken)
 }
 
-/// A path within the scene's folder: a scene is no way to reach other files of its user.
+/// The path that a URI names, within the scene's folder: a scene must not reach other files of its user.
 fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     let shown: String = uri.chars().take(200).collect();
     let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
@@ -136,7 +136,7 @@ fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     Ok(folder.join(path))
 }
 
-/// The part of its buffer that a view shows.
+/// The part of its buffer that a view shows; `None` where there is no such part.
 pub fn view<'a>(root: &json::Root, buffers: &'a [Bytes], index: usize) -> Option<&'a [u8]> {
     let view = root.buffer_views.get(index)?;
     let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;

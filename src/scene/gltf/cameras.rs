@@ -1,4 +1,4 @@
-//! Cameras: projections with their ranges checked, and where they stand.
+//! Cameras: where they stand, and their projections, with all ranges checked.
 
 use glam::{DAffine3, DMat3, DMat4, Mat4, Vec3};
 use gltf::json::camera::{Orthographic, Perspective, Type};
@@ -11,8 +11,8 @@ use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Camera, Projection};
 
-/// The cameras at the scene's nodes, in the order of the file's list of cameras. Each is named as in that list, else as
-/// its node. All are checked, placed or not.
+/// The cameras at the scene's nodes, in the order of the file's list of cameras. Each has its name in that list or,
+/// without one, its node's. All are checked, whether placed or not.
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<Camera>, Fault> {
     let projections = projections(root)?;
     let mut cameras = Vec::new();
@@ -84,8 +84,8 @@ fn beyond(zfar: f32, znear: f32) -> Result<(), String> {
     (zfar > znear && zfar.is_finite()).then_some(()).ok_or_else(wrong)
 }
 
-/// A node's place without scale, shear and mirroring: its -z is kept, and its y made orthogonal. None where a scale of
-/// zero leaves no direction.
+/// A node's transform without scale, shear and mirroring: its -z is kept, and its y made perpendicular to that. `None`
+/// where a scale of zero leaves no direction.
 fn world_from_camera(world_from_node: DAffine3) -> Option<Mat4> {
     let axes = world_from_node.matrix3;
     let back = axes.z_axis.try_normalize()?;

@@ -5,18 +5,19 @@ use gltf::json::Root;
 use super::Fault;
 use super::json::parse_json;
 
-/// Where each chunk's data starts: after its length and type.
+/// Bytes of a chunk before its data: its length and its type.
 const CHUNK_HEADER: usize = 8;
+/// Bytes of a .glb before its first chunk.
 const GLB_HEADER: usize = 12;
 
-/// A file taken apart. Values have the right types; nothing else about them is known.
+/// The parts of a file. All values have the right types; nothing else is known about them.
 pub struct Document<'a> {
     pub root: Root,
     /// The buffer within a .glb.
     pub binary: Option<&'a [u8]>,
 }
 
-/// Takes .glb and .gltf apart, told apart by their first bytes.
+/// Splits a .glb or .gltf file into its parts; which of the two it is, its first bytes tell.
 pub fn parse(bytes: &[u8]) -> Result<Document<'_>, Fault> {
     if bytes.is_empty() {
         return Err(Fault::new("the file is empty; give a .gltf or .glb file"));
@@ -42,7 +43,7 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         false => short(length.into()),
     })?;
     let (json, rest) = split_chunk(body, b"JSON")?;
-    // Chunks of other kinds may follow, which readers are to pass over.
+    // Chunks of other kinds may follow; readers are to skip them.
     let binary = if rest.is_empty() { None } else { Some(split_chunk(rest, b"BIN\0")?.0) };
     Ok((json, binary))
 }

@@ -1,13 +1,13 @@
-//! The elements that an accessor reads, wherever their bytes stand.
+//! The elements that an accessor reads, wherever their bytes are.
 
 use gltf::json::accessor::ComponentType;
 
-/// As large as any element: a matrix of 4 x 4 floats.
+/// As large as the largest element: a matrix of 4 x 4 floats.
 const ZEROS: [u8; 64] = [0; 64];
 
-/// Elements whose ranges are proven.
+/// Elements that are known to lie within their buffers.
 pub struct Elements<'a> {
-    /// From the first element on; none where all are zero but those of `sparse`.
+    /// From the first element on; `None` where all elements but those of `sparse` are zero.
     pub bytes: Option<&'a [u8]>,
     pub stride: usize,
     pub size: usize,
@@ -16,7 +16,7 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// The bytes of an element below `count`.
+    /// The bytes of element `at`, which is less than `count`.
     pub fn get(&self, at: usize) -> &'a [u8] {
         match (self.sparse.as_ref().and_then(|sparse| sparse.find(at)), self.bytes) {
             (Some(place), _) => &place[..self.size],
@@ -26,18 +26,18 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// Elements that stand in for others.
+/// Elements that replace others.
 pub struct Sparse<'a> {
-    /// Of the elements replaced, `width` bytes each.
+    /// The indices of the elements that are replaced, `width` bytes each.
     pub indices: &'a [u8],
     pub width: usize,
-    /// `size` bytes each.
+    /// What replaces them, `size` bytes each.
     pub values: &'a [u8],
     pub size: usize,
 }
 
 impl<'a> Sparse<'a> {
-    /// What stands in for an element.
+    /// What replaces an element, if anything does.
     fn find(&self, element: usize) -> Option<&'a [u8]> {
         let (mut low, mut high) = (0, self.count());
         while low < high {
@@ -55,7 +55,8 @@ impl<'a> Sparse<'a> {
         unsigned(&self.indices[at * self.width..][..self.width]) as usize
     }
 
-    /// The first index that is not greater than the one before it, or not below `count`, and its place.
+    /// The first index that is not greater than the one before it, or not below `count`: its position, and the index
+    /// itself.
     pub fn first_bad(&self, count: u64) -> Option<(usize, usize)> {
         let is_bad = |&at: &usize| {
             self.index(at) as u64 >= count
@@ -70,8 +71,8 @@ pub fn unsigned(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
 }
 
-/// What one component is as a number. Normalized integers span [0, 1] or [-1, 1] (glTF 2.0, section 3.6.2.2, and
-/// KHR_mesh_quantization).
+/// The function that makes a number of a component's bytes. Normalized integers span [0, 1] or [-1, 1] (glTF 2.0,
+/// section 3.6.2.2, and KHR_mesh_quantization).
 pub fn decoder(component: ComponentType, is_normalized: bool) -> fn(&[u8]) -> f32 {
     match (component, is_normalized) {
         (ComponentType::I8, false) => |bytes| f32::from(bytes[0].cast_signed()),

@@ -1,4 +1,4 @@
-//! Extensions that are read from the JSON itself.
+//! Extensions of the file as a whole and of its nodes.
 
 use gltf::json::Root;
 use serde::Deserialize;
@@ -9,14 +9,14 @@ use super::Fault;
 use super::nodes::node_label;
 use crate::scene::notices::Notices;
 
-/// Those that a file may require, beside those of materials.
+/// Those that a file may require, besides those of materials and textures.
 pub const SERVED: [&str; 4] =
     ["KHR_mesh_quantization", "KHR_lights_punctual", "EXT_lights_area", "KHR_materials_variants"];
 
-/// Codecs that pack what buffers hold.
+/// Codecs that compress what buffers hold.
 const CODECS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// What the file as a whole holds under an extension's name.
+/// What the file as a whole holds under an extension's name, if anything.
 pub fn of_root<T: DeserializeOwned>(root: &Root, name: &str) -> Result<Option<T>, Fault> {
     root.extensions
         .as_ref()
@@ -37,7 +37,7 @@ struct Reference {
     light: usize,
 }
 
-/// Which of `count` lights of an extension each node bears, in the scene or not.
+/// Which of an extension's `count` lights each node bears, whether the node is in the scene or not.
 pub fn lights_of_nodes(root: &Root, name: &str, count: usize) -> Result<Vec<Option<usize>>, Fault> {
     let nodes = root.nodes.iter().enumerate().map(|(index, node)| {
         let Some(value) = node.extensions.as_ref().and_then(|extensions| extensions.others.get(name)) else {
@@ -50,7 +50,7 @@ pub fn lights_of_nodes(root: &Root, name: &str, count: usize) -> Result<Vec<Opti
     nodes.collect()
 }
 
-/// Notes what of the file as a whole and of its nodes is not drawn.
+/// Notes what is not drawn of the file as a whole and of its nodes.
 pub fn note(root: &Root, notices: &mut Notices) {
     if root.extensions.as_ref().is_some_and(|extensions| extensions.others.contains_key("KHR_materials_variants")) {
         notices.add("material variants: the default one is drawn", || "KHR_materials_variants".to_owned());
@@ -65,7 +65,7 @@ pub fn note(root: &Root, notices: &mut Notices) {
     }
 }
 
-/// The extension that packs a buffer's data, if there is one.
+/// The extension that compresses a buffer's data, if there is one.
 pub fn codec(extensions: &Map<String, Value>) -> Option<&'static str> {
     CODECS.into_iter().find(|&name| extensions.contains_key(name))
 }

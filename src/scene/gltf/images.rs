@@ -1,5 +1,6 @@
 //! Images: fetched, and decoded in parallel within bounds.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -9,25 +10,35 @@ use rayon::prelude::*;
 
 use super::Fault;
 use super::buffers::{self, Bytes};
-use crate::scene::Image;
 use crate::scene::error::label;
+use crate::scene::mipmap::half_of;
 use crate::scene::notices::Notices;
+use crate::scene::{Encoding, Image, Level};
 
-/// Images with a longer side than this are refused before memory is asked for.
+/// The longest side of an image in texels: longer ones are refused before memory is asked for.
 const SIDE_MAX: u32 = 1 << 14;
-/// Longer sides than this are halved: what every device has room for.
+/// The longest side that is kept, which every device has room for: images with longer ones are halved.
 const KEPT_SIDE_MAX: u32 = 1 << 13;
-/// The most texels that all images have together: 1 GiB.
+/// The most texels that all images are kept with together: 1 GiB.
 const TEXELS_MAX: u64 = 1 << 28;
-/// The most that a decoder may ask for: the largest image in 16 bits a channel.
+/// The most bytes that a decoder may ask for: those of the largest image with 16 bits a channel.
 const DECODER_BYTES_MAX: u64 = 8 * (SIDE_MAX as u64) * (SIDE_MAX as u64);
 
-/// What the bytes of images come from.
+/// Where the bytes of images come from.
 pub struct Sources<'a> {
     pub root: &'a Root,
     pub buffers: &'a [Bytes<'a>],
-    /// Where the files stand that images name; without one there are none.
+    /// The folder of the files that images name; without it, none are read.
     pub folder: Option<&'a Path>,
+}
+
+/// An image of the file that is to be read.
+pub struct Wanted {
+    /// Index into the file's images.
+    pub index: usize,
+    /// Whether a material reads colours in it, in sRGB: they are reduced as such. All else is plain numbers, normals
+    /// too, as shading makes unit what it looks up, and the fourth channel everywhere.
+    pub is_color: bool,
 }
 
 /// An image that is not decoded yet.
@@ -37,6 +48,7 @@ struct Encoded<'a> {
     name: String,
     bytes: &'a [u8],
     format: ImageFormat,
+    is_color: bool,
     size: [u32; 2],
 }
 
@@ -47,20 +59,20 @@ impl Encoded<'_> {
     }
 }
 
-/// Decodes these of the file's images, in this order.
-pub fn read(sources: &Sources, indices: &[usize], notices: &mut Notices) -> Result<Vec<Image>, Fault> {
+/// Decodes these of the file's images, and gives them in this order.
+pub fn read(sources: &Sources, wanted: &[Wanted], notices: &mut Notices) -> Result<Vec<Image>, Fault> {
     let mut files = buffers::Files::new();
-    let mut fetched = Vec::with_capacity(indices.len());
-    for &index in indices {
-        let bytes = sources.fetch(index, &mut files).map_err(|fault| Fault::at(sources.label(index), fault))?;
-        fetched.push((index, bytes));
-    }
-    let heads = fetched.iter().map(|(index, bytes)| head(sources, *index, bytes)).collect::<Result<Vec<_>, _>>()?;
+    let mut fetch = |wanted: &Wanted| {
+        sources.fetch(wanted.index, &mut files).map_err(|fault| Fault::at(sources.label(wanted.index), fault))
+    };
+    let fetched = wanted.iter().map(&mut fetch).collect::<Result<Vec<_>, _>>()?;
+    let heads = wanted.iter().zip(&fetched).map(|(wanted, bytes)| head(sources, wanted, bytes));
+    let heads = heads.collect::<Result<Vec<_>, _>>()?;
     check_texels(&heads)?;
     for image in heads.iter().filter(|image| image.is_large()) {
         notices.add("images of more than 8192 texels a side are reduced", || image.place.clone());
     }
-    // Large ones one after the other: each takes several times as much while it is decoded.
+    // Large ones one after the other: while one is decoded, it takes several times the memory that it keeps.
     let decode_some =
         |large: bool| move |image: &Encoded| if image.is_large() == large { decode(image).map(Some) } else { Ok(None) };
     let large = heads.iter().map(decode_some(true)).collect::<Result<Vec<_>, _>>()?;
@@ -97,12 +109,12 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// Format and size, by the bytes alone: what a file says of its images is often wrong.
-fn head<'a>(sources: &Sources, index: usize, bytes: &'a [u8]) -> Result<Encoded<'a>, Fault> {
+/// An image's format and size, by its bytes alone: what a file says of its images is often wrong.
+fn head<'a>(sources: &Sources, &Wanted { index, is_color }: &Wanted, bytes: &'a [u8]) -> Result<Encoded<'a>, Fault> {
     let place = sources.label(index);
     let (format, size) = format_and_size(bytes).map_err(|what| Fault::at(&place, what))?;
     let name = super::cut(sources.root.images[index].name.as_deref().unwrap_or_default());
-    Ok(Encoded { place, name, bytes, format, size })
+    Ok(Encoded { place, name, bytes, format, is_color, size })
 }
 
 fn format_and_size(bytes: &[u8]) -> Result<(ImageFormat, [u32; 2]), String> {
@@ -138,42 +150,26 @@ fn decode(encoded: &Encoded) -> Result<Image, Fault> {
         return Err(wrong("is cut short; copy or export it again".to_owned()));
     }
     let decoded = decoded.into_rgba8();
-    let (width, height) = decoded.dimensions();
-    let texels = decoded.into_raw().as_chunks::<4>().0.to_vec();
-    let mut image = Image { name: encoded.name.clone(), width, height, texels };
-    while kept_size([image.width, image.height]) != [image.width, image.height] {
-        image = halved(&image);
+    let size = [decoded.width(), decoded.height()];
+    let bytes = decoded.into_raw();
+    let encoding = if encoded.is_color { Encoding::Colors } else { Encoding::Numbers };
+    let mut level = Level { size, texels: Cow::Borrowed(bytes.as_chunks().0) };
+    while kept_size(level.size) != level.size {
+        level = level.halved(encoding);
     }
-    Ok(image)
+    let [width, height] = level.size;
+    Ok(Image { name: encoded.name.clone(), width, height, texels: level.texels.into_owned() })
 }
 
-/// What is left of an image's size when its sides are halved until they may be kept.
+/// An image's size after it has been halved until no side is too long to be kept.
 fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     match width.max(height) > KEPT_SIDE_MAX {
-        true => kept_size([width.div_ceil(2), height.div_ceil(2)]),
+        true => kept_size(half_of([width, height])),
         false => [width, height],
     }
 }
 
-/// Half as large: the mean of each two by two texels, of their numbers as they are stored. The last of an odd row or column
-/// is taken twice.
-fn halved(image: &Image) -> Image {
-    let [width, height] = [image.width, image.height].map(|side| side.div_ceil(2));
-    let at = |x: u32, y: u32| {
-        let [x, y] = [x.min(image.width - 1), y.min(image.height - 1)].map(|at| at as usize);
-        image.texels[y * image.width as usize + x]
-    };
-    let mean = |x: u32, y: u32| {
-        let texels = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(right, down)| at(2 * x + right, 2 * y + down));
-        std::array::from_fn(|channel| {
-            (texels.iter().map(|texel| u16::from(texel[channel])).sum::<u16>() + 2).div_euclid(4) as u8
-        })
-    };
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect();
-    Image { name: image.name.clone(), width, height, texels }
-}
-
-/// Whether a JPEG file's end is there: its decoder fills what is missing with grey.
+/// Whether a JPEG file's end is there: the decoder fills what is missing with grey.
 fn jpeg_ends(bytes: &[u8]) -> bool {
     // Zeros, restart markers and fill bytes after 0xff stand within the data.
     let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 1 | 0xd0..=0xd8 | 0xff);
@@ -182,7 +178,7 @@ fn jpeg_ends(bytes: &[u8]) -> bool {
         if rest[at + 1] == 0xd9 {
             return true;
         }
-        // A segment, with its length: thumbnails in it have ends of their own.
+        // A segment is skipped by its length: thumbnails in it have ends of their own.
         let length =
             rest.get(at + 2..at + 4).map_or(usize::MAX, |length| usize::from(length[0]) << 8 | usize::from(length[1]));
         rest = rest.get(at.saturating_add(2).saturating_add(length)..).unwrap_or_default();

@@ -5,10 +5,10 @@ use serde_json::{Map, Value};
 
 use super::Fault;
 
-/// The most of anything that a file may hold: a few bytes of JSON make hundreds in memory.
+/// The most entries of any list in a file: a few bytes of JSON become hundreds in memory.
 const COUNT_MAX: usize = 1 << 20;
 
-/// Members whose numbers index, or stand for, something. Their type in `Root` is 32 bits wide, and wider numbers wrap.
+/// Members whose numbers are indices or codes. Their type in `Root` is 32 bits wide, in which wider numbers would wrap.
 const INDICES: [&str; 24] = [
     "buffer",
     "bufferView",
@@ -46,11 +46,11 @@ pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
         return Err(Fault::new("not a glTF file (its JSON is no object); give a .gltf or .glb file"));
     };
     check_version(root)?;
-    // Nobody plays these, and `Root` wants more of them than glTF does.
+    // These are not played, and `Root` demands more of them than glTF does.
     root.remove("animations");
     check_counts(root)?;
     for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
-        // glTF lets a scene be empty; `Root` doesn't.
+        // glTF allows a scene to be empty; `Root` does not.
         scene.as_object_mut().map(|scene| scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new())));
     }
     for (key, value) in root.iter_mut() {
@@ -60,12 +60,12 @@ pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
     serde_path_to_error::deserialize(value).map_err(wrong)
 }
 
-/// Whether text begins as a JSON object does: then it is meant to be one.
+/// Whether the text begins like a JSON object, and so is meant to be one.
 fn is_object(json: &[u8]) -> bool {
     json.trim_ascii_start().starts_with(b"{")
 }
 
-/// glTF 2.x, told before anything else is: a file of glTF 1 is wrong in many other ways.
+/// Checks for glTF 2.x, before anything else: a file of glTF 1 is wrong in many other ways too.
 fn check_version(root: &Map<String, Value>) -> Result<(), Fault> {
     let Some(asset) = root.get("asset") else {
         return Err(Fault::new("not a glTF file (no asset in its JSON); give a .gltf or .glb file"));
@@ -95,7 +95,8 @@ fn check_counts(root: &Map<String, Value>) -> Result<(), Fault> {
     }
 }
 
-/// Drops what nobody reads and refuses indices that would wrap. As deep as the JSON, which its parser bounds to 128.
+/// Drops what is never read, and refuses indices that would wrap. Recurses as deep as the JSON, which its parser limits
+/// to 128.
 fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
     match value {
         Value::Object(members) => {

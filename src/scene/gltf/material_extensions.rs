@@ -1,4 +1,4 @@
-//! The extensions of materials as the JSON has them, with the specifications' defaults.
+//! Extensions of materials as the JSON holds them, with the specifications' defaults.
 
 use gltf::json::Material;
 use gltf::json::texture::Info;
@@ -11,8 +11,9 @@ use crate::scene::notices::Notices;
 /// KHR_materials_unlit has no members.
 pub const UNLIT: &str = "KHR_materials_unlit";
 
-/// An extension by its name.
+/// An extension of materials.
 pub trait Extension: DeserializeOwned {
+    /// As files name it.
     const NAME: &'static str;
 }
 
@@ -101,12 +102,12 @@ impl Default for Ior {
     }
 }
 
-/// An extension among others, if it is there; else what is wrong with it.
+/// An extension, where it is among `others`; or what is wrong with it.
 pub fn extension<T: Extension>(others: &Map<String, Value>) -> Result<Option<T>, String> {
     others.get(T::NAME).map(|value| object(T::NAME, value)).transpose()
 }
 
-/// A JSON object's values, or what is wrong with it.
+/// The values of the JSON object that bears `name`, or what is wrong with it.
 pub fn object<T: DeserializeOwned>(name: &str, value: &Value) -> Result<T, String> {
     if !value.is_object() {
         return Err(format!("{name} must be an object; correct it"));
@@ -115,7 +116,7 @@ pub fn object<T: DeserializeOwned>(name: &str, value: &Value) -> Result<T, Strin
         .map_err(|error| format!("{name}: {}; correct it", super::cut(&error.to_string())))
 }
 
-/// What is said of well-known extensions that are not drawn, one kind of notice each.
+/// The notices about well-known extensions that are not drawn, a kind of notice for each.
 const NOT_DRAWN: [&str; 11] = [
     "KHR_materials_anisotropy is not drawn",
     "KHR_materials_clearcoat is not drawn",
@@ -130,7 +131,7 @@ const NOT_DRAWN: [&str; 11] = [
     "KHR_materials_volume_scatter is not drawn",
 ];
 
-/// Notes what of a material is not drawn.
+/// Notes what is not drawn of a material.
 pub fn note(material: &Material, place: &dyn Fn() -> String, notices: &mut Notices) {
     const DRAWN: [&str; 5] = [Sheen::NAME, Fuzz::NAME, Specular::NAME, Ior::NAME, UNLIT];
     let names = material.extensions.iter().flat_map(|extensions| extensions.others.keys());

@@ -1,4 +1,4 @@
-//! Materials: factors with their ranges checked, and which textures they use.
+//! Materials: their factors, with ranges checked, and which textures they use.
 
 use std::ops::RangeInclusive;
 
@@ -15,7 +15,7 @@ use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{AlphaMode, Material, Sheen, TextureSlot};
 
-/// In the order of `Scene::materials`: the file's own. What they name as textures are the file's, not yet the scene's.
+/// The file's materials, in its order. The textures that they name are still the file's, not the scene's.
 pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> {
     let read = |(index, material): (usize, &json::Material)| {
         let place = || label("material", index, material.name.as_deref());
@@ -27,7 +27,7 @@ pub fn read(root: &Root, notices: &mut Notices) -> Result<Vec<Material>, Fault> 
     root.materials.iter().enumerate().map(read).collect()
 }
 
-/// What a primitive without a material is made of, by glTF.
+/// What glTF says a primitive without a material is made of.
 pub fn default_material() -> Material {
     Material { metallic: 1.0, specular: 1.0, ..Material::matte("default", Vec3::ONE) }
 }
@@ -41,7 +41,7 @@ fn read_one(material: &json::Material, textures: usize) -> Result<Material, Stri
     read.emission *= emissive_strength(material)?;
     read.textures = uses.slots;
     if others.contains_key(extensions::UNLIT) {
-        // Nothing but the base color counts.
+        // Nothing but the base colour counts.
         let base_color = read.texture(TextureSlot::BaseColor);
         (read.unlit, read.emission, read.sheen) = (true, Vec3::ZERO, None);
         read.textures = [None; TextureSlot::COUNT];
@@ -50,7 +50,7 @@ fn read_one(material: &json::Material, textures: usize) -> Result<Material, Stri
     Ok(read)
 }
 
-/// What glTF has without extensions.
+/// What glTF has in its core, without extensions.
 fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, String> {
     let pbr = &material.pbr_metallic_roughness;
     let [red, green, blue, opacity] = in_unit("baseColorFactor", pbr.base_color_factor.0)?;
@@ -114,7 +114,7 @@ fn read_layers(others: &serde_json::Map<String, Value>, read: &mut Material, use
     let sheen = extension::<SheenExtension>(others)?;
     read.sheen = sheen.map(|sheen| read_sheen(&sheen, uses)).transpose()?;
     if let Some(fuzz) = extension::<Fuzz>(others)? {
-        // Whatever its factor: a sheen beside it is for those who do not know fuzz.
+        // It replaces the sheen, whatever its factor: a sheen beside it is for readers that do not know fuzz.
         read.sheen = Some(read_fuzz(&fuzz, uses)?);
     }
     Ok(())

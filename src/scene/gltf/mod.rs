@@ -1,8 +1,8 @@
-//! glTF 2.0 in (.gltf and .glb).
+//! Reads glTF 2.0 (.gltf and .glb).
 //!
-//! Files come from anywhere, so nothing in them is believed: `json` proves the types of values, `accessor` the
-//! ranges, `nodes` that nodes make trees; what is made of a file has valid indices and finite numbers. Broken and
-//! hostile files give an error; none may panic, hang, or take more memory than some times its own size.
+//! Files come from anywhere, so nothing in them is taken on trust: `json` checks the types of values, `accessor` the
+//! ranges, `nodes` that nodes form trees. A scene made from a file has valid indices and finite numbers. Broken and
+//! hostile files give an error; none may panic, hang, or take more memory than a small multiple of its own size.
 
 mod accessor;
 mod area;
@@ -37,7 +37,7 @@ use accessor::Accessors;
 use assembly::Assembly;
 use images::Sources;
 
-/// Extensions that a file may require.
+/// Extensions of materials and textures that a file may require.
 const SERVED: &[&str] = &[
     "EXT_texture_webp",
     "KHR_materials_emissive_strength",
@@ -48,10 +48,11 @@ const SERVED: &[&str] = &[
     "KHR_materials_unlit",
     "KHR_texture_transform",
 ];
-/// Names are cut to this many characters: many things may bear the same one.
+/// The most characters that are kept of a name: many things may share one.
 const NAME_MAX: usize = 256;
 
-/// The scene in a .gltf file, with the buffers and images that lie beside it, or in a .glb file.
+/// The scene in a .glb file, or in a .gltf file with the buffers and images beside it. The error says in one line what
+/// is wrong, where, and what to do.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
     // Only a path without a file name has no parent.
@@ -60,12 +61,13 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     scene.map(complete).map_err(|fault| SceneError::new(&file, fault))
 }
 
-/// The scene in the bytes of a .glb, or of a .gltf with all buffers and images in it. `name` stands for the file in errors.
+/// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
+/// [`load`], with `name` in place of the file's.
 pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
     read(bytes, None).map(complete).map_err(|fault| SceneError::new(name, fault))
 }
 
-/// What the file holds, and what is to be said of it.
+/// What the file holds, and what there is to say about it.
 fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
     let document = container::parse(bytes)?;
     let root = &document.root;
@@ -89,7 +91,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> 
     Ok((scene, notices))
 }
 
-/// Adds what the file leaves to be found or made, after its bytes have been let go.
+/// Adds what the file leaves to be found or made: area lights, a camera, a rig. By then its bytes have been freed.
 fn complete((mut scene, mut notices): (Scene, Notices)) -> Scene {
     lights::add_lights(&mut scene, 0, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
@@ -109,7 +111,7 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
     }
 }
 
-/// A name of the file's, cut to a length that many things may bear.
+/// A name from the file, cut to [`NAME_MAX`].
 fn cut(name: &str) -> String {
     name.chars().take(NAME_MAX).collect()
 }

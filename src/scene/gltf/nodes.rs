@@ -1,4 +1,4 @@
-//! The tree of nodes: proved to be one, then walked.
+//! The tree of nodes: checked to be one, then walked.
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf::json::scene::Node;
@@ -7,14 +7,15 @@ use gltf::json::{Index, Root};
 use super::Fault;
 use crate::scene::error::label;
 
-/// How far a rotation's length may be from 1, which exporters that round stay well within. It is normalised.
+/// How far a rotation's length may be from 1 before it is normalised: far more than exporters that round need.
 const ROTATION_TOLERANCE: f64 = 1e-2;
 
-/// A node of the scene and where it stands.
+/// A node of the scene, and where it stands.
 pub struct Placed {
+    /// Index into the file's nodes.
     pub node: usize,
     pub world_from_node: DAffine3,
-    /// The rotations of the node and of those above it, scales left out: what turns a thing that no scale may mirror.
+    /// The rotations of the node and of those above it, without scales: for things that no scale may mirror.
     pub rotation: DQuat,
 }
 
@@ -23,8 +24,8 @@ pub fn node_label(root: &Root, index: usize) -> String {
     label("node", index, root.nodes.get(index).and_then(|node| node.name.as_deref()))
 }
 
-/// The nodes of the default scene (else the first; all of them where there is no scene), parents before children and
-/// siblings in the file's order. All nodes are checked, in the scene or not.
+/// The nodes of the default scene, else of the first, else, where there is no scene, all nodes: parents before
+/// children, siblings in the file's order. All nodes are checked, whether in the scene or not.
 pub fn place(root: &Root) -> Result<Vec<Placed>, Fault> {
     let parents = parents(root)?;
     let local = root
@@ -34,7 +35,7 @@ pub fn place(root: &Root) -> Result<Vec<Placed>, Fault> {
         .map(|(index, node)| parent_from_node(node).map_err(|what| Fault::at(node_label(root, index), what)));
     let local: Vec<Local> = local.collect::<Result<_, _>>()?;
     let roots = scene_roots(root, &parents)?;
-    // A stack of our own: chains of nodes may be as long as the file likes.
+    // Not by recursion: chains of nodes may be of any length.
     let start = Local { transform: DAffine3::IDENTITY, rotation: DQuat::IDENTITY };
     let mut open: Vec<(usize, Local)> = roots.into_iter().rev().map(|node| (node, start)).collect();
     let mut placed = Vec::new();
@@ -48,7 +49,7 @@ pub fn place(root: &Root) -> Result<Vec<Placed>, Fault> {
     Ok(placed)
 }
 
-/// The parent of each node, after a proof that these make trees.
+/// The parent of each node, once it is certain that the nodes form trees.
 fn parents(root: &Root) -> Result<Vec<Option<usize>>, Fault> {
     let mut parents = vec![None; root.nodes.len()];
     for (index, node) in root.nodes.iter().enumerate() {
@@ -71,9 +72,9 @@ fn parents(root: &Root) -> Result<Vec<Option<usize>>, Fault> {
     }
 }
 
-/// A node on a cycle, in a graph where each has one parent at most.
+/// A node on a cycle, if there is one, in a graph in which each node has at most one parent.
 fn cycle(parents: &[Option<usize>]) -> Option<usize> {
-    // The walk on which each node was first met: to meet one twice on the same walk is to go round.
+    // The walk on which each node was first met: whoever meets one twice on the same walk is going in circles.
     let mut met = vec![usize::MAX; parents.len()];
     for start in 0..parents.len() {
         let mut node = start;
@@ -117,7 +118,7 @@ fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Result<Vec<usize>, Fau
     }
 }
 
-/// A transform and the rotation in it.
+/// A transform, and the rotation in it.
 #[derive(Clone, Copy)]
 struct Local {
     transform: DAffine3,
@@ -150,8 +151,8 @@ fn parent_from_node(node: &Node) -> Result<Local, String> {
     Ok(Local { transform: DAffine3::from_scale_rotation_translation(scale, rotation, translation), rotation })
 }
 
-/// The rotation that takes z, and y as far as it is perpendicular to it, where a transform takes them; none where it
-/// leaves no such directions.
+/// The rotation that takes z where a transform takes it, and y as near as can be to where that takes it; no rotation
+/// where the transform leaves no such directions.
 fn rotation_of(transform: DAffine3) -> DQuat {
     let axes = transform.matrix3;
     let back = axes.z_axis.try_normalize();

@@ -1,4 +1,4 @@
-//! Primitives: from accessors to indexed triangles with what each vertex needs.
+//! Primitives: made from accessors into indexed triangles, with what each vertex needs.
 
 use glam::{DVec3, Vec3, Vec4};
 use gltf::json::accessor::Type;
@@ -11,9 +11,10 @@ use super::attributes::Attributes;
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Mesh, TextureUse, tangents};
 
-/// Primitives may share accessors, so that a few bytes could ask for a lot of memory: they get this many times the
-/// bytes of all buffers, several times what primitives that share nothing need, and a little for small files.
+/// Primitives may share accessors, so that a few bytes could ask for a lot of memory. So all primitives together get
+/// this many times the bytes of all buffers, which is several times what primitives that share nothing need.
 const SHARING: u64 = 64;
+/// And so many bytes more, for small files.
 const SHARING_FLOOR: u64 = 64 << 20;
 
 /// Reads primitives, within a budget of memory.
@@ -28,7 +29,8 @@ impl<'a> Reader<'a> {
         Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
-    /// The mesh of a primitive of `material`, whose index is left open; none where there is nothing to draw.
+    /// The mesh of a primitive of `material`, whose index is left for the caller to fill in; `None` where nothing is
+    /// drawn.
     pub fn read(
         &mut self,
         primitive: &Primitive,
@@ -77,8 +79,8 @@ impl<'a> Reader<'a> {
         Ok(Some(mesh))
     }
 
-    /// The triangles of a primitive. There are never more vertices than corners, so that what is read is paid for by
-    /// indices.
+    /// The triangles of a primitive. No more vertices are read than there are corners, so that the file's indices limit
+    /// the memory that they take.
     fn corners(&mut self, primitive: &Primitive, attributes: &Attributes, mode: Mode) -> Result<Corners, Fault> {
         let count = attributes.count(&self.accessors)?;
         let indices = primitive.indices.map(|indices| indices.value());
@@ -86,7 +88,7 @@ impl<'a> Reader<'a> {
         self.charge(corners, count, attributes, mode)?;
         let mut corners = match indices {
             Some(indices) => self.accessors.indices(indices)?,
-            // Memory has been granted for them: there are fewer than 2^32.
+            // There are fewer than 2^32: `charge` has seen to it.
             None => (0..count as u32).collect(),
         };
         if let Some(at) = corners.iter().position(|&corner| corner as usize >= count) {
@@ -106,19 +108,19 @@ impl<'a> Reader<'a> {
         Ok(Corners { used, triangles: triangles(&corners, mode) })
     }
 
-    /// Takes what the triangles of so many corners and vertices need at most from the budget.
+    /// Takes from the budget the most memory that triangles of so many corners and vertices need.
     fn charge(&mut self, corners: usize, count: usize, attributes: &Attributes, mode: Mode) -> Result<(), Fault> {
         let indices = if mode == Mode::Triangles { corners } else { corners.saturating_mul(3) };
         let vertices = if attributes.may_split() { indices.max(count.min(corners)) } else { count.min(corners) };
         let bytes = vertices.saturating_mul(attributes.vertex_bytes()).saturating_add(indices.saturating_mul(4));
         let over = || Fault::new("too many primitives share the same accessors; split the file or export it again");
         self.budget = self.budget.checked_sub(bytes as u64).ok_or_else(over)?;
-        // Vertices that are split must be counted in 32 bits too.
+        // Indices of 32 bits must do for vertices that are split, too.
         (vertices < u32::MAX as usize).then_some(()).ok_or_else(over)
     }
 }
 
-/// Gives a mesh that is normal-mapped its tangents: the file's own, or others where these will not do.
+/// Gives a normal-mapped mesh its tangents: the file's own, or computed ones where these are missing or unusable.
 fn orient(mesh: &mut Mesh, map: TextureUse, own: Option<&[Vec4]>, notices: &mut Notices) {
     match own {
         Some(own) if tangents::adopt(mesh, own) => return,
@@ -130,13 +132,13 @@ fn orient(mesh: &mut Mesh, map: TextureUse, own: Option<&[Vec4]>, notices: &mut 
 
 /// What a primitive makes of its vertices.
 struct Corners {
-    /// The vertices that are read, in order; all of them where there is no list.
+    /// The vertices that are read, in order; `None` where all are.
     used: Option<Vec<u32>>,
-    /// Of vertices by their place among those that are read.
+    /// Vertices are counted among those that are read.
     triangles: Vec<[u32; 3]>,
 }
 
-/// The extension that a primitive's data is compressed with.
+/// The extension by which a primitive's data is compressed, if it is.
 fn compression(primitive: &Primitive) -> Option<&str> {
     let names = primitive.extensions.as_ref()?.others.keys();
     names.map(String::as_str).find(|name| name.contains("compression"))
@@ -157,13 +159,14 @@ fn triangles(corners: &[u32], mode: Mode) -> Vec<[u32; 3]> {
     }
 }
 
-/// Along the normal, twice the area long; exactly zero only where the corners are, to f64, on one line.
+/// A vector along the normal, of twice the area's length; exactly zero only where the corners are on one line, to
+/// `f64`.
 fn area_vector(positions: &[Vec3], [a, b, c]: [u32; 3]) -> DVec3 {
     let [a, b, c] = [a, b, c].map(|corner| positions[corner as usize].as_dvec3());
     (b - a).cross(c - a)
 }
 
-/// Gives each triangle vertices of its own with its normal: what glTF asks for where there are none.
+/// Gives each triangle vertices of its own, with its normal: what glTF asks for where there are no normals.
 fn flatten(mesh: &mut Mesh) {
     let own = mesh.indices.len() == mesh.positions.len() && mesh.indices.iter().copied().eq(0..);
     if !own {
@@ -182,12 +185,12 @@ fn flatten(mesh: &mut Mesh) {
     }
 }
 
-/// The values at some indices; none where there are no values.
+/// The values at some indices; none where there are no values at all.
 fn at<T: Copy>(values: &[T], indices: &[u32]) -> Vec<T> {
     if values.is_empty() { Vec::new() } else { indices.iter().map(|&index| values[index as usize]).collect() }
 }
 
-/// Makes normals unit, and those of no length the mean of their triangles'.
+/// Makes normals unit; those of no length are replaced by the mean of their triangles'.
 fn unify(mesh: &mut Mesh, notices: &mut Notices) {
     let is_zero = |normal: &Vec3| normal.as_dvec3().length_squared() == 0.0;
     if mesh.normals.iter().any(is_zero) {

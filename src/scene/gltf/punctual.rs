@@ -13,7 +13,7 @@ use crate::scene::notices::Notices;
 use crate::scene::{PunctualKind, PunctualLight};
 
 const EXTENSION: &str = "KHR_lights_punctual";
-/// The most that light: every shaded point visits each.
+/// The most lights that count: every shaded point visits each of them.
 const LIGHTS_MAX: usize = 1024;
 
 #[derive(Deserialize)]
@@ -48,10 +48,12 @@ impl Default for Spot {
     }
 }
 
+/// The default of colours.
 pub fn white() -> [f32; 3] {
     [1.0; 3]
 }
 
+/// The default of factors.
 pub fn one() -> f32 {
     1.0
 }
@@ -95,7 +97,8 @@ impl Light {
     }
 }
 
-/// The lights at the scene's nodes, named as in the file's list, else as their nodes. All are checked, placed or not.
+/// The lights at the scene's nodes, each with its name in the file's list or, without one, its node's. All are checked,
+/// whether placed or not.
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<PunctualLight>, Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
     let read = |(index, light): (usize, &Light)| {

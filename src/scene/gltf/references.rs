@@ -1,4 +1,4 @@
-//! Indices from one list of the file into another: those that are not checked where they are followed.
+//! Indices from one list of the file into another, as far as they are not checked where they are followed.
 
 use gltf::json::{Index, Root};
 
@@ -7,7 +7,7 @@ use super::nodes::node_label;
 use super::{Fault, textures};
 use crate::scene::error::label;
 
-/// Checks what nodes, primitives, textures, images and skins refer to, in the scene or not.
+/// Checks what nodes, primitives, textures, images and skins refer to, whether they are in the scene or not.
 pub fn check(root: &Root) -> Result<(), Fault> {
     for (index, node) in root.nodes.iter().enumerate() {
         let place = || node_label(root, index);
@@ -38,7 +38,7 @@ fn check_pictures(root: &Root) -> Result<(), Fault> {
     for (index, texture) in root.textures.iter().enumerate() {
         let place = || textures::texture_label(root, index);
         within("sampler", root.samplers.len(), &texture.sampler, place)?;
-        // Where an extension names another kind of image in its stead the source is missing.
+        // The source is missing where an extension names an image of another kind in its stead.
         let source = textures::has_source(texture).then_some(texture.source);
         within("image", root.images.len(), &source, place)?;
     }

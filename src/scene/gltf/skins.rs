@@ -1,4 +1,4 @@
-//! Skins, as far as their joints stand as they were bound.
+//! Skins, as far as their joints are in the pose in which they were bound.
 
 use std::collections::HashMap;
 
@@ -11,13 +11,13 @@ use super::accessor::{Accessors, Numbers};
 use super::nodes::Placed;
 use crate::scene::error::label;
 
-/// How far joints' matrices may be apart, relative to their largest entry or to 1.
+/// How far joints' matrices may differ, relative to their largest entry or to 1, whichever is greater.
 const POSE_TOLERANCE: f64 = 1e-4;
 
-/// The skins of a file, each looked at once.
+/// The skins of a file, each examined once.
 pub struct Skins<'a> {
     root: &'a Root,
-    /// Where each node stands that is in the scene.
+    /// Where each node stands; `None` for those that are not in the scene.
     world_from_node: Vec<Option<DAffine3>>,
     known: HashMap<usize, Option<DAffine3>>,
 }
@@ -31,8 +31,9 @@ impl<'a> Skins<'a> {
         Self { root, world_from_node, known: HashMap::new() }
     }
 
-    /// Where a skin puts what it is on, whatever the node that bears it: joint's place times inverse bind matrix, where
-    /// that is the same for all joints, so that weights do not matter (glTF 2.0, section 3.7.3.3). None where it is not.
+    /// Where a skin puts the mesh that wears it, whatever the mesh's node: a joint's place times its inverse bind
+    /// matrix, where that is the same for all joints, so that weights do not matter (glTF 2.0, section 3.7.3.3). `None`
+    /// where it differs.
     pub fn world_from_mesh(&mut self, accessors: &Accessors, skin: usize) -> Result<Option<DAffine3>, Fault> {
         if let Some(&known) = self.known.get(&skin) {
             return Ok(known);

@@ -12,7 +12,7 @@ use crate::scene::{Material, TextureSlot, TextureUse};
 
 const TRANSFORM: &str = "KHR_texture_transform";
 
-/// KHR_texture_transform as the JSON has it.
+/// KHR_texture_transform as the JSON holds it.
 #[derive(Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct Transform {
@@ -29,8 +29,8 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// Scaled, then turned, then moved. The specification's words and its example turn (1, 0) towards (0, -1), upwards in
-    /// the image, as do all who draw it; its listing has the other sign (KhronosGroup/glTF issue 1563).
+    /// Scaled, then turned, then moved. The specification's words and its example turn (1, 0) towards (0, -1), upwards
+    /// in the image, as do all who draw it; its listing has the other sign (KhronosGroup/glTF issue 1563).
     fn uv_from_tex_coord(&self) -> Affine2 {
         Affine2::from_scale_angle_translation(self.scale.into(), -self.rotation, self.offset.into())
     }
@@ -48,14 +48,14 @@ impl Uses {
         Self { slots: [None; TextureSlot::COUNT], count }
     }
 
-    /// Fills a slot with what the member `name` says, if it is there.
+    /// Fills a slot with what the member `name` says, where there is one.
     pub fn add(&mut self, name: &str, slot: TextureSlot, info: &Option<Info>) -> Result<(), String> {
         let Some(info) = info else { return Ok(()) };
         let others = info.extensions.as_ref().map(|extensions| &extensions.others);
         self.add_parts(name, slot, (info.index, info.tex_coord, others))
     }
 
-    /// The same of a member's parts: texture, set of texture coordinates, extensions.
+    /// The same from a member's parts: texture, set of texture coordinates, extensions.
     pub fn add_parts(
         &mut self,
         name: &str,
@@ -77,7 +77,7 @@ impl Uses {
     }
 }
 
-/// Leaves out what uses a set of texture coordinates that meshes do not keep.
+/// Leaves out textures on sets of texture coordinates that meshes do not keep.
 pub fn tex_coord_limit(material: &mut Material, place: &dyn Fn() -> String, notices: &mut Notices) {
     for slot in &mut material.textures {
         if slot.is_some_and(|texture| texture.tex_coord > 1) {

@@ -1,6 +1,6 @@
-//! Textures: samplers, and which image each one shows.
+//! Textures: their samplers, and which image each of them shows.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hash;
 
 use gltf::json::Root;
@@ -10,34 +10,33 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Fault;
-use super::images::{self, Sources};
+use super::images::{self, Sources, Wanted};
 use super::material_extensions::object;
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Filter, Sampler, Scene, Texture, TextureUse, Wrap};
+use crate::scene::{Filter, Material, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap};
 
 const WEBP: &str = "EXT_texture_webp";
 
-/// EXT_texture_webp as the JSON has it.
+/// EXT_texture_webp as the JSON holds it.
 #[derive(Deserialize)]
 struct Webp {
     source: u64,
 }
 
-/// Reads the textures that the scene's materials use, with their images, and makes the materials name the scene's textures
-/// in place of the file's. Those without an image that can be read are left out.
+/// Reads the textures that the scene's materials use, with their images, and makes the materials name the scene's
+/// textures in place of the file's. Those without an image that can be read are left out.
 pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
     let samplers = samplers(root)?;
-    let slots = scene.materials.iter().flat_map(|material| &material.textures);
-    let used: BTreeSet<usize> = slots.flatten().map(|used| used.texture).collect();
     // The scene's index of each texture that is used, and of each image.
     let (mut textures, mut images, mut known) = (HashMap::new(), Numbered::new(), Numbered::new());
-    let mut same = HashMap::new();
-    for index in used {
+    let (mut same, mut colors) = (HashMap::new(), HashSet::new());
+    for (index, is_color) in used(&scene.materials) {
         if let Some(image) = image(root, index, notices)? {
             // Images of the same bytes are one.
             let bytes = (root.images[image].uri.as_deref(), root.images[image].buffer_view.map(|view| view.value()));
             let image = *same.entry(bytes).or_insert(image);
+            colors.extend(is_color.then_some(image));
             let sampler = root.textures[index].sampler.map_or(Sampler::DEFAULT, |sampler| samplers[sampler.value()]);
             textures.insert(index, known.number(Texture { image: images.number(image), sampler }));
         }
@@ -46,11 +45,23 @@ pub fn read(root: &Root, sources: &Sources, scene: &mut Scene, notices: &mut Not
         *slot = slot.and_then(|used| Some(TextureUse { texture: *textures.get(&used.texture)?, ..used }));
     }
     scene.textures = known.things;
-    scene.images = images::read(sources, &images.things, notices)?;
+    let wanted = images.things.into_iter().map(|index| Wanted { index, is_color: colors.contains(&index) });
+    scene.images = images::read(sources, &wanted.collect::<Vec<_>>(), notices)?;
     Ok(())
 }
 
-/// Different things, numbered as they come.
+/// The file's textures that materials use, in order, and whether any of them reads colours there.
+fn used(materials: &[Material]) -> BTreeMap<usize, bool> {
+    let mut used = BTreeMap::new();
+    for (material, slot) in materials.iter().flat_map(|material| TextureSlot::ALL.map(|slot| (material, slot))) {
+        if let Some(TextureUse { texture, .. }) = material.texture(slot) {
+            *used.entry(texture).or_default() |= slot.is_color();
+        }
+    }
+    used
+}
+
+/// Different things, numbered in the order in which they come.
 struct Numbered<T> {
     things: Vec<T>,
     numbers: HashMap<T, usize>,
@@ -69,7 +80,7 @@ impl<T: Copy + Eq + Hash> Numbered<T> {
     }
 }
 
-/// The image that a texture shows, if there is one that can be read.
+/// The index of the image that a texture shows, if there is one that can be read.
 fn image(root: &Root, index: usize, notices: &mut Notices) -> Result<Option<usize>, Fault> {
     let texture = &root.textures[index];
     let place = || texture_label(root, index);
@@ -95,11 +106,13 @@ fn webp_source(webp: &Value, images: usize) -> Result<usize, String> {
     found.ok_or_else(|| format!("{WEBP}: there is no image {source}; export the file again"))
 }
 
-/// Where the source is missing, an index that no file can have stands in its place.
+/// Whether a texture has a source. Where it has none, the JSON's type holds an index in its place that no file can
+/// have.
 pub fn has_source(texture: &JsonTexture) -> bool {
     texture.source.value() != u32::MAX as usize
 }
 
+/// `texture 3 "grain"`.
 pub fn texture_label(root: &Root, index: usize) -> String {
     label("texture", index, root.textures.get(index).and_then(|texture| texture.name.as_deref()))
 }

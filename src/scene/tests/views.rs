@@ -73,7 +73,8 @@ fn what_glows_is_no_subject() {
     two.instances[1].world_from_mesh = Mat4::from_translation(Vec3::new(0.0, 50.0, 0.0));
     assert_eq!((two.subject().min, two.subject().max), (Vec3::NEG_ONE, Vec3::ONE));
     assert_eq!(two.bounds().max, Vec3::new(1.0, 51.0, 1.0));
-    // Where all glows all is the subject. Without a light, as past the limits, it gets the rig; with its own it does not.
+    // Where all glows all is the subject. Without a light, as past the limits, it gets the rig; with its own it does
+    // not.
     two.materials[0].emission = Vec3::ONE;
     assert_eq!(two.subject(), two.bounds());
     assert_eq!(added(two.clone()).lights.len(), 3);

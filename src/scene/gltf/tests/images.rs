@@ -191,14 +191,51 @@ fn images_larger_than_memory_are_refused_by_their_heads() {
     assert!(error.contains("image 4: the images up to here hold 335544320 texels"), "{error}");
 }
 
+/// The felt's material, whose members of these names have the image of these bytes as their texture, is read.
+fn shown_as(members: &[&str], bytes: &[u8]) -> Scene {
+    let mut file = with_image(bytes);
+    file.json["materials"][0]["pbrMetallicRoughness"] = json!({});
+    for member in members {
+        file.set(&format!("/materials/0/{member}"), json!({ "index": 0 }));
+    }
+    file.read()
+}
+
 #[test]
 fn large_images_are_halved_with_one_notice() {
-    let stripes = GrayImage::from_fn(8193, 3, |x, y| Luma([(4 * (x % 8) + 100 * (y % 2)) as u8]));
-    let scene = with_image(&encoded(stripes.into(), ImageFormat::Png)).read();
+    // Sides are odd: texels that lie on the border of two of the half count in both by their areas.
+    let columns = |x: u32| if x == 0 || x == 8192 { 150 } else { 0 };
+    let lines = GrayImage::from_fn(8193, 3, |x, y| Luma([columns(x) + 90 * (y % 2) as u8]));
+    let bytes = encoded(lines.into(), ImageFormat::Png);
+    let scene = shown_as(&["pbrMetallicRoughness/metallicRoughnessTexture"], &bytes);
     assert_eq!(scene.notices, ["images of more than 8192 texels a side are reduced: image 0 \"weave\""]);
     let image = &scene.images[0];
-    assert_eq!((image.width, image.height), (4097, 2));
-    // The mean of 0, 4, 100 and 104; the last column and row stand alone.
-    assert_eq!((image.texels[0], image.texels[4096]), ([52, 52, 52, 255], [50, 50, 50, 255]));
-    assert_eq!(image.texels[4097], [2, 2, 2, 255]);
+    assert_eq!((image.width, image.height), (4096, 1));
+    // 30 is a third of 90; the outer columns cover 4096 of the 8193 parts of their texels: 150 * 4096 / 8193 = 74.99.
+    assert_eq!([0, 1, 2048, 4095].map(|at| image.texels[at][0]), [105, 30, 30, 105]);
+    assert_eq!(image.texels[0][3], 255);
+}
+
+#[test]
+fn large_images_are_halved_in_linear_light() {
+    const BASE_COLOR: &str = "pbrMetallicRoughness/baseColorTexture";
+    const SHEEN_COLOR: &str = "extensions/KHR_materials_sheen/sheenColorTexture";
+    const SHEEN_ROUGHNESS: &str = "extensions/KHR_materials_sheen/sheenRoughnessTexture";
+    let checker = GrayAlphaImage::from_fn(8194, 2, |x, y| LumaA([255 * ((x + y) % 2) as u8; 2]));
+    let bytes = encoded(checker.into(), ImageFormat::Png);
+    for (members, expected) in [
+        // Half the light is 188 in sRGB; numbers, opacity among them, have their plain mean.
+        (&[BASE_COLOR][..], [188, 188, 188, 128]),
+        (&["emissiveTexture"], [188, 188, 188, 128]),
+        (&["occlusionTexture"], [128; 4]),
+        (&["normalTexture"], [128; 4]),
+        (&[SHEEN_ROUGHNESS], [128; 4]),
+        // One image for both, as the extension has it.
+        (&[SHEEN_ROUGHNESS, SHEEN_COLOR], [188, 188, 188, 128]),
+        (&[SHEEN_COLOR, "occlusionTexture"], [188, 188, 188, 128]),
+    ] {
+        let image = &shown_as(members, &bytes).images[0];
+        assert_eq!((image.width, image.height), (4097, 1));
+        assert!(image.texels.iter().all(|texel| *texel == expected), "{members:?}: {:?}", image.texels[0]);
+    }
 }
