@@ -33,6 +33,10 @@ use rayon::prelude::*;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// The first lines of every table's .csv, which is made to be copied.
+const LICENCE: [&str; 2] =
+    ["SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD", "SPDX-FileCopyrightText: 2026 The Velour authors"];
+
 /// The cosine at which a and b of the shipped table's row mu = 0 are fitted.
 pub const GRAZING_MU: f64 = 0.01;
 
