@@ -1,7 +1,8 @@
-//! The house's order: who may import whom, and how long a file may grow.
+//! The house's order: who may import whom, how long a file may grow, under which licences it stands, and what documents say of it.
 
 mod imports;
 mod lengths;
+mod licences;
 
 use std::fs;
 use std::path::{Path, PathBuf};
