@@ -12,6 +12,7 @@ mod radiance;
 mod reference;
 mod reference_command;
 mod run;
+mod screenshot;
 mod sheen_models;
 mod shown;
 mod stage;
