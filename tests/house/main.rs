@@ -1,5 +1,6 @@
 //! The house's order: who may import whom, how long a file may grow, under which licences it stands, and what documents say of it.
 
+mod documents;
 mod imports;
 mod lengths;
 mod licences;

@@ -5,6 +5,7 @@ mod base;
 mod command;
 mod compare;
 mod comparison;
+mod documented;
 mod golden;
 mod lights;
 mod modelling;
