@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
+// SPDX-FileCopyrightText: 2026 The Velour authors
 // The specular base, GGX microfacets: its table gives the matrix of a transformed cosine, its albedo and its Fresnel share.
 // Copy with it: ltc.wgsl, which integrates the matrix over lights, and tables/ggx_ltc.dds (x = roughness, y = sqrt(1 - mu), two parts).
 // Frame: z = normal, x = view projected on the surface, as ltc_frame makes it; mu = dot(normal, view).

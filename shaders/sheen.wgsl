@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
+// SPDX-FileCopyrightText: 2026 The Velour authors
 // The multiple-scattering sheen of Zeltner, Burley and Chiang 2022: its table gives the matrix of a transformed cosine and its albedo.
 // Copy with it: ltc.wgsl, which integrates the matrix over lights, and tables/sheen_ltc.dds (x = alpha, y = mu; texels a, b, r, 1).
 // Frame: z = normal, x = view projected on the surface, as ltc_frame makes it; mu = dot(normal, view).

@@ -15,6 +15,10 @@ pub use errors::{DIM, Errors};
 
 use std::ops::RangeInclusive;
 
+/// The first lines of every table's .csv, which is made to be copied.
+const LICENCE: [&str; 2] =
+    ["SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD", "SPDX-FileCopyrightText: 2026 The Velour authors"];
+
 /// Nodes a side of the shipped tables of transformed cosines.
 pub const RESOLUTION: usize = 32;
 

@@ -47,6 +47,19 @@ impl Offscreen {
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
 
+    /// The picture that `velour render` makes of a scene without any flag but `--size`: through its first camera, with 4 samples a pixel,
+    /// the shipped table and the default tone curve. In one call, for tests that compare it with a picture that is kept; whoever
+    /// draws a scene more than once keeps an `Offscreen`. Panics where the scene has no camera; a scene that was loaded has one.
+    pub async fn screenshot(
+        gpu: &Gpu,
+        scene: &Scene,
+        settings: &Settings,
+        size: [u32; 2],
+    ) -> Result<DisplayImage, RenderError> {
+        let mut renderer = Self::for_display(gpu, 4, &SheenTable::embedded(), scene, settings)?;
+        renderer.display(gpu, &scene.cameras[0], size, settings, ToneCurve::default()).await
+    }
+
     /// Sends changed materials, lights, places and settings of the same scene to the device; its meshes and textures
     /// stay as they were.
     pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {

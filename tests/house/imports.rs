@@ -9,7 +9,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use super::{files, read, root};
 
 /// Each module at the top of the library, and those that it may import. the binary sees all.
-const MAY_IMPORT: [(&str, &[&str]); 14] = [
+pub const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("math", &[]),
     ("file", &[]),
     ("table", &["math"]),

@@ -1,8 +1,11 @@
-//! The house's order: who may import whom, which file uses which, which shader may name what, and how long a file may grow.
+//! The house's order: who may import whom, which file uses which, which shader may name what, how long a file may grow, under
+//! which licences it stands, and what documents say of it.
 
+mod documents;
 mod floors;
 mod imports;
 mod lengths;
+mod licences;
 mod machine;
 mod passes;
 

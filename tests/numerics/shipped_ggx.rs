@@ -29,9 +29,9 @@ fn the_table_is_what_the_code_makes() {
     assert!(report.spread.albedo.mean < 0.0005 && report.spread.fresnel.mean < 0.0005, "{report}");
     assert!(report.spread.albedo.max < 0.03 && report.spread.fresnel.max < 0.03, "{report}");
     assert!(report.compared < 0.1235, "{report}");
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../docs/accuracy.md");
     for figure in report.figures() {
-        assert!(readme.contains(&figure), "README.md does not say '{figure}'");
+        assert!(page.contains(&figure), "docs/accuracy.md does not say '{figure}'");
     }
 }
 

@@ -46,8 +46,8 @@ fn difference(one: &Transport, other: &Transport, mus: impl Iterator<Item = f64>
     [albedo, lobe]
 }
 
-/// The most by which two meshes may differ, relatively, for alpha >= 2/31 and mu >= 1e-3: in R, and in lobes (L2). The
-/// README quotes both.
+/// The most by which two meshes may differ, relatively, for alpha >= 2/31 and mu >= 1e-3: in R, and in lobes (L2).
+/// docs/accuracy.md quotes both.
 const MESHES: [f64; 2] = [2e-4, 3e-4];
 
 #[test]
@@ -61,7 +61,7 @@ fn two_meshes_agree_at_every_node() {
     check(1.0, [5e-5, 1e-3]);
     check(0.5, [5e-5, 1e-3]);
     let quoted = format!("R within {:e}, lobes (L2) within {:e}", MESHES[0], MESHES[1]);
-    assert!(include_str!("../../README.md").contains(&quoted), "README.md does not say '{quoted}'");
+    assert!(include_str!("../../docs/accuracy.md").contains(&quoted), "docs/accuracy.md does not say '{quoted}'");
 }
 
 #[test]
@@ -181,8 +181,8 @@ fn albedos_agree_with_the_walk() {
         }
     }
     assert!(
-        include_str!("../../README.md").contains(&format!("R in {all} cells")),
-        "README.md does not say {all} cells"
+        include_str!("../../docs/accuracy.md").contains(&format!("R in {all} cells")),
+        "docs/accuracy.md does not say {all} cells"
     );
     // The ruler notices 2% of alpha.
     assert!(off_the_walk(0.5, 0.5, 0.51).abs() > 5.0 && off_the_walk(0.2, 0.1, 0.204).abs() > 5.0);

@@ -1,5 +1,5 @@
 //! How far real time is from the layer that it stands for: the fit from the slab, and the layering rules from light
-//! that goes through both layers. The README quotes the figures.
+//! that goes through both layers. docs/accuracy.md quotes the figures.
 
 use glam::{Mat4, Vec3};
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
@@ -68,12 +68,12 @@ fn the_fit_is_as_far_from_the_slab_as_is_said() {
     for ((alpha, _), [off, more]) in FIT.iter().zip(found) {
         println!("alpha {alpha}: {:.1}% of the light is elsewhere, {:+.1}% more", 100.0 * off, 100.0 * more);
     }
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../docs/accuracy.md");
     for ((alpha, said), [off, _]) in FIT.iter().zip(found) {
         // How far noise leaves the figure uncertain.
         assert!((off / said - 1.0).abs() < 0.1, "alpha {alpha}: {off} is not {said}");
         let quoted = format!("alpha {alpha}: {:.1}%", 100.0 * said);
-        assert!(readme.contains(&quoted), "README.md does not say '{quoted}'");
+        assert!(page.contains(&quoted), "docs/accuracy.md does not say '{quoted}'");
     }
 }
 

@@ -24,8 +24,16 @@ const FILES: [(&str, &str); 3] = [
     ),
 ];
 
-const HEADER: [&str; 6] =
-    ["// ", "// Copy with it: ", "// Frame: ", "// Example: ", "// Ranges: ", "// Greatest error: "];
+const HEADER: [&str; 8] = [
+    "// SPDX-License-Identifier: ",
+    "// SPDX-FileCopyrightText: ",
+    "// ",
+    "// Copy with it: ",
+    "// Frame: ",
+    "// Example: ",
+    "// Ranges: ",
+    "// Greatest error: ",
+];
 
 /// The text of a file at the top of `shaders/`.
 pub fn source(name: &str) -> String {

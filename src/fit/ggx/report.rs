@@ -1,6 +1,7 @@
 //! How good the specular base's table is.
 
 use super::row::{Fit, QUADRATURE, albedo, distance};
+use crate::fit::LICENCE;
 use crate::fit::errors::Errors;
 use crate::physics::microfacet::{Ggx, LEAST_ALPHA};
 use crate::table::ggx::{GRAZING_MU, cosine};
@@ -88,7 +89,8 @@ Lookup: bilinear. albedo and fresnel are fitted for the interpolated value. u, v
             last = self.resolution - 1,
         );
         let errors = self.to_string();
-        about.lines().chain(errors.lines()).chain(["Made by: velour fit"]).map(str::to_owned).collect()
+        let lines = LICENCE.into_iter().chain(about.lines()).chain(errors.lines());
+        lines.chain(["Made by: velour fit"]).map(str::to_owned).collect()
     }
 
     /// The errors of shapes at the nodes and between them, of R, and of the Fresnel share, in words.

@@ -2,8 +2,8 @@
 
 use super::albedo::Albedos;
 use super::row::{Fit, grazing_mu};
-use crate::fit::RESOLUTION;
 use crate::fit::errors::{DIM, Errors};
+use crate::fit::{LICENCE, RESOLUTION};
 use crate::table::{SheenTable, centres};
 use std::fmt;
 
@@ -61,8 +61,10 @@ a, b of mu = 0 are those of mu = {grazing}. alpha = 0 has no lobe: a and b of th
             last = self.resolution - 1,
             grazing = (grazing_mu(self.resolution) * 1e6).round() / 1e6,
         );
+        let errors = self.to_string();
         let made = format!("Made by: velour fit{option}");
-        about.lines().map(str::to_owned).chain(self.to_string().lines().map(str::to_owned)).chain([made]).collect()
+        let lines = LICENCE.into_iter().chain(about.lines()).chain(errors.lines());
+        lines.chain([made.as_str()]).map(str::to_owned).collect()
     }
 
     /// The errors of the lobe, of r at the cells' centres, and of r at the spread points, in words.

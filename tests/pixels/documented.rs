@@ -1,0 +1,38 @@
+//! The commands that documents show: the program has them, and their flags.
+
+use super::run::Bench;
+
+const DOCUMENTS: [(&str, &str); 3] = [
+    ("README.md", include_str!("../../README.md")),
+    ("docs/scenes.md", include_str!("../../docs/scenes.md")),
+    ("docs/accuracy.md", include_str!("../../docs/accuracy.md")),
+];
+
+/// What follows `velour ` in a line of a block of code, or between backticks.
+fn commands(text: &str) -> impl Iterator<Item = &str> {
+    let lines = text.lines().filter_map(|line| line.strip_prefix("velour "));
+    let spans = text.split('`').skip(1).step_by(2).filter_map(|span| span.strip_prefix("velour "));
+    lines.map(|line| line.split(" #").next().unwrap_or(line)).chain(spans)
+}
+
+/// The flags of a command that its help does not know.
+fn unknown<'a>(command: &'a str, help: &str) -> Vec<&'a str> {
+    let flags = command.split_whitespace().filter(|word| word.starts_with('-'));
+    let known: Vec<&str> = help.split(|sign: char| sign.is_whitespace() || sign == ',').collect();
+    flags.filter(|flag| !known.contains(flag)).collect()
+}
+
+#[test]
+fn commands_in_documents_have_the_flags_that_they_show() {
+    let bench = Bench::new();
+    let mut count = 0;
+    for (name, text) in DOCUMENTS {
+        for command in commands(text) {
+            let words = command.split_whitespace().next().unwrap_or_default();
+            let help = bench.run(&format!("{} --help", if words.starts_with('-') { "" } else { words })).stdout;
+            assert_eq!(unknown(command, &help), [""; 0], "{name}: velour {command}");
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count} commands");
+}
