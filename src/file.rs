@@ -6,12 +6,26 @@ use std::path::{Path, PathBuf};
 /// A file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
+    /// The system refuses.
     #[error("{}: cannot be written ({source}): choose another place", path.display())]
-    Path { path: PathBuf, source: std::io::Error },
+    Path {
+        /// Where it was to be written.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// There is no such folder; none is made.
     #[error("{}: its folder is not there: make it first", path.display())]
-    NoFolder { path: PathBuf },
+    NoFolder {
+        /// Where it was to be written.
+        path: PathBuf,
+    },
+    /// A folder stands in its place.
     #[error("{}: is a folder: give a file's name", path.display())]
-    Folder { path: PathBuf },
+    Folder {
+        /// Where it was to be written.
+        path: PathBuf,
+    },
 }
 
 /// Says whether `path` can be written, before the work is done: its folder exists and takes a new file, and it is no

@@ -59,6 +59,8 @@
 //!
 //! Local frame: z is the normal, x is `wi` projected on the surface. `a_from_b` names a transform, `p_world` a point.
 
+#![warn(missing_docs)]
+
 #[cfg(feature = "scenes")]
 pub mod bvh;
 #[cfg(feature = "cli")]

@@ -6,8 +6,11 @@ pub const DIM: f64 = 1e-3;
 /// Statistics of relative errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
+    /// The arithmetic mean.
     pub mean: f64,
+    /// The middle one, the upper of two.
     pub median: f64,
+    /// The largest.
     pub max: f64,
 }
 

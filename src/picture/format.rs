@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 /// The kinds of picture files that are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
+    /// Shown values: sRGB, 8 bits a channel.
     Png,
+    /// Linear radiance: OpenEXR, 32-bit floats.
     Exr,
 }
 
@@ -34,10 +36,20 @@ impl fmt::Display for Format {
 /// A picture could not be put into a file's format.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
+    /// The file name's extension names no format.
     #[error("{}: the extension says what to write: use .png or .exr", path.display())]
-    Extension { path: PathBuf },
+    Extension {
+        /// The picture's place.
+        path: PathBuf,
+    },
+    /// The encoder refuses the picture.
     #[error("the picture cannot be encoded as {format} ({source})")]
-    Encode { format: Format, source: image::ImageError },
+    Encode {
+        /// The format that was asked for.
+        format: Format,
+        /// The encoder's reason.
+        source: image::ImageError,
+    },
 }
 
 #[cfg(test)]

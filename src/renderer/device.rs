@@ -36,12 +36,22 @@ pub enum DeviceError {
     /// There is no adapter at all, or none that can present to the window.
     #[error("no graphics adapter was found: install a Vulkan driver (scripts/setup does), or see `velour info`")]
     NoAdapter,
-    /// There are adapters, those `found`, but none has `wanted` in its name.
+    /// There are adapters, but none of the wanted name.
     #[error("no adapter's name contains '{wanted}': this machine has {}", found.join(", "))]
-    NoMatch { wanted: String, found: Vec<String> },
-    /// The driver of `adapter` gives no device, because of `source`.
+    NoMatch {
+        /// The part of a name that was asked for.
+        wanted: String,
+        /// The names of the adapters that are there.
+        found: Vec<String>,
+    },
+    /// The adapter's driver gives no device.
     #[error("adapter '{adapter}' gave no device: {source}")]
-    Refused { adapter: String, source: wgpu::RequestDeviceError },
+    Refused {
+        /// The adapter's name.
+        adapter: String,
+        /// The driver's reason.
+        source: wgpu::RequestDeviceError,
+    },
 }
 
 /// Which drivers to ask, in this order: OpenGL only where nothing better fits, because asking for it takes time.

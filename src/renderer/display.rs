@@ -13,8 +13,13 @@ const DISPLAY_WGSL: &str = include_str!("../../shaders/passes/display.wgsl");
 /// What the radiance is turned into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Showing {
-    /// sRGB of `exposure` stops, through the tone curve.
-    Shown { exposure: f32, tone: ToneCurve },
+    /// sRGB, exposed and through the tone curve.
+    Shown {
+        /// In stops: radiance is multiplied by 2 to this power.
+        exposure: f32,
+        /// What maps exposed radiance to the screen's range.
+        tone: ToneCurve,
+    },
     /// Linear radiance: the mean of each pixel's samples.
     Measured,
 }

@@ -41,14 +41,33 @@ pub enum RenderError {
     #[error(
         "{what} take {bytes} bytes on the device, which holds at most {limit} in one piece: split the mesh or use another adapter"
     )]
-    /// The buffer of `what` is larger, at `bytes`, than the `limit` of the device.
-    TooLarge { what: String, bytes: u64, limit: u64 },
-    /// A side of a picture of `size` pixels is 0, or longer than the `limit` of the device's textures.
+    /// A buffer is larger than what the device holds in one piece.
+    TooLarge {
+        /// What the buffer holds.
+        what: String,
+        /// The buffer's size.
+        bytes: u64,
+        /// The device's limit, in bytes.
+        limit: u64,
+    },
+    /// A side of the picture is 0, or longer than that of the device's largest texture.
     #[error("size {}x{} is past what this adapter draws: use 1x1 to {limit}x{limit}", size[0], size[1])]
-    Size { size: [u32; 2], limit: u32 },
-    /// The adapter cannot draw into targets of `what` with this many `samples` per pixel; `instead` is what to try.
+    Size {
+        /// Width and height that were asked for, in pixels.
+        size: [u32; 2],
+        /// The longest side that the device draws.
+        limit: u32,
+    },
+    /// The adapter cannot draw into such targets with so many samples per pixel.
     #[error("this adapter cannot draw {what} with {samples} samples a pixel: use {instead}")]
-    Multisampling { what: &'static str, samples: u32, instead: &'static str },
+    Multisampling {
+        /// The targets' numbers.
+        what: &'static str,
+        /// Samples per pixel that were asked for.
+        samples: u32,
+        /// What to try.
+        instead: &'static str,
+    },
     /// The picture could not be copied from the device.
     #[error("the device did not hand the picture over ({0}): try a smaller --size or another --adapter")]
     Readback(String),

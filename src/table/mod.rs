@@ -31,9 +31,14 @@ pub const MAX_FILE_BYTES: u64 = 128 << 20;
 /// Why a table was not read. Each message is one line: what is wrong, where, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// The file at `path` was not read because of `problem`.
+    /// A file was not read.
     #[error("{}: {problem}", .path.display())]
-    In { path: PathBuf, problem: Box<TableError> },
+    In {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: Box<TableError>,
+    },
     /// Opening or reading the file failed.
     #[error("cannot be read ({0}); give the path of a table's .csv or .dds")]
     Unreadable(#[from] std::io::Error),
@@ -46,23 +51,40 @@ pub enum TableError {
     /// The file is longer than [`MAX_FILE_BYTES`].
     #[error("is longer than {MAX_FILE_BYTES} bytes; a table has at most {MAX_SIDE} nodes a side")]
     TooLong,
-    /// A .csv is not UTF-8 from the byte `at` on.
+    /// A .csv is not UTF-8.
     #[error("byte {at} is not UTF-8 text; a table's .csv holds lines of numbers")]
-    NotText { at: usize },
-    /// The line `line` of a .csv, counted from 1, does not hold the numbers that it should: see `problem`.
+    NotText {
+        /// The first byte that is no text, counted from 0.
+        at: usize,
+    },
+    /// A line of a .csv does not hold the numbers that it should.
     #[error("line {line}: {problem}")]
-    Line { line: usize, problem: String },
-    /// The lines of a .csv, taken together, do not fill a grid: see `problem`. `columns` names the columns that it
-    /// needs.
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong with it, and what belongs there.
+        problem: String,
+    },
+    /// The lines of a .csv, taken together, do not fill a grid.
     #[error("{problem}; a table holds n x m lines of {columns}, in order of the first two, node k of n at k/(n-1)")]
-    Lines { columns: String, problem: String },
-    /// A .dds does not hold the texture of a [`SheenTable`] or [`GgxTable`], or one of its texels is out of range: see
-    /// `problem`.
+    Lines {
+        /// The names of the columns that a line has.
+        columns: String,
+        /// What is wrong with the lines.
+        problem: String,
+    },
+    /// A .dds does not hold the texture of a [`SheenTable`] or [`GgxTable`], or one of its texels is out of range.
     #[error("{problem}; a table is one 2D texture of RGBA16F or RGBA32F with a DX10 header and no mips")]
-    Dds { problem: String },
-    /// A .dds does not hold the volume of a [`SlabTable`], or one of its texels is out of range: see `problem`.
+    Dds {
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A .dds does not hold the volume of a [`SlabTable`], or one of its texels is out of range.
     #[error("{problem}; a slab's table is one volume of 32 x 32 x 32 texels of RGBA16F with a DX10 header and no mips")]
-    Volume { problem: String },
+    Volume {
+        /// What is wrong with it.
+        problem: String,
+    },
 }
 
 /// Unwraps a table that is built in.

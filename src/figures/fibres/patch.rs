@@ -26,9 +26,13 @@ pub struct Patch {
 /// How a path through a patch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passage {
-    /// It left above where `direction`, a unit vector, points up, else below, after `scatterings`; with none, it went
-    /// straight.
-    Left { direction: DVec3, scatterings: u64 },
+    /// It left the patch.
+    Left {
+        /// Unit: above the patch where it points up, else below.
+        direction: DVec3,
+        /// How often it was scattered; 0 where it went straight through.
+        scatterings: u64,
+    },
     /// After [`MOST_STEPS`] it had still not left.
     Interrupted,
 }

@@ -22,10 +22,13 @@ pub type Progress<'a> = dyn Fn(u64, u64) -> bool + Sync + 'a;
 /// Why a plate was not made.
 #[derive(Debug, thiserror::Error)]
 pub enum PlateError {
+    /// The asset was not read.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The reference renderer could not render the scene.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    /// The caller asked for an end before the picture was whole.
     #[error("interrupted: run the command again, and it goes on with this picture")]
     Interrupted,
 }

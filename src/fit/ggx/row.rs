@@ -14,6 +14,7 @@ const TOLERANCE: f64 = 1e-7;
 /// The fit of one node.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
+    /// The inverse matrix that was found.
     pub ltc: Ltc,
     /// R.
     pub albedo: f64,
