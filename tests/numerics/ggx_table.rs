@@ -108,10 +108,13 @@ fn bad_text_is_refused_with_its_line() {
         (ROWS.replace("1,0,0,0,1,.4,0\n", "1,0,0,0,1,.4\n"), "line 3: 6 columns instead of the 7 of roughness,t,u,v,s"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,0,1,.5"), "line 2: s must be in [0.01, 16]: 0"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,99,0,.1,1,.5"), "line 2: u and v must be in [-16, 16]: 99"),
+        (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,-99,.1,1,.5"), "line 2: u and v must be in [-16, 16]: 0, -99"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,nan,.1,1,.5"), "line 2: v must be a finite number"),
+        (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,17,1,.5"), "line 2: s must be in [0.01, 16]: 17"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,.1,1.01,.5"), "line 2: albedo must be in [0.01, 1]"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,.1,0,0"), "line 2: albedo must be"),
         (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,.1,.4,.5"), "line 2: fresnel must be in [0, albedo]: 0.5, 0.4"),
+        (ROWS.replace("0,1,0,0,.1,1,.5", "0,1,0,0,.1,1,-.1"), "line 2: fresnel must be in [0, albedo]: -0.1, 1"),
         (ROWS.replace("0,1,", "0,.9,"), "line 2: t is 0.9, but row 1"),
         ("0,0,0,0,.1,1,0\n".to_owned(), "lines of roughness,t,u,v,s,albedo,fresnel"),
     ] {

@@ -1,7 +1,7 @@
 //! Table files that must be refused without a panic, with one line that says what is wrong, where, and what to do.
 
 use std::path::Path;
-use velour::table::{MAX_FILE_BYTES, SheenTable};
+use velour::table::{MAX_FILE_BYTES, MAX_SIDE, SheenTable};
 
 const ROWS: &str = "0,0,1,0,0\n0,1,1,0,0\n1,0,1,0,0\n1,1,1,0,0\n";
 
@@ -58,22 +58,34 @@ fn csv_must_fill_its_grid_in_order() {
     assert!(csv_error("0,0,1,0,0\n").contains("1 x 1 nodes"));
     assert!(csv_error("0,0,1,0,0\n0,1,1,0,0\n").contains("1 x 2 nodes"));
     assert!(csv_error(ROWS.trim_end().rsplit_once('\n').expect("four rows").0).contains("3 rows do not fill"));
+    assert!(csv_error("0,0,1,0,0\n1,0,1,0,0\n").contains("2 x 1 nodes of alpha and mu, where each needs 2 or more"));
     // mu-major instead of alpha-major.
     assert!(csv_error("0,0,1,0,0\n1,0,1,0,0\n0,1,1,0,0\n1,1,1,0,0\n").contains("4 x 1 nodes"));
     // A row out of order.
     assert!(csv_error("0,0,1,0,0\n0,1,1,0,0\n1,1,1,0,0\n1,0,1,0,0\n").contains("line 3: mu is 1"));
     // Off its node by more than 1e-4.
-    assert!(csv_error(&ROWS.replace("0,1,", "0,0.9998,")).contains("line 2: mu is 0.9998"));
-    assert!(csv_error(&ROWS.replace("1,0,1", "0.9998,0,1")).contains("line 3: alpha is 0.9998"));
+    assert!(csv_error(&ROWS.replace("0,1,", "0,0.99989,")).contains("line 2: mu is 0.99989"));
+    assert!(csv_error(&ROWS.replace("1,0,1", "0.99989,0,1")).contains("line 3: alpha is 0.99989"));
 }
 
 #[test]
 fn csv_is_bounded() {
     let wide: String = (0..1025).map(|_| "0,0,1,0,0\n").collect();
     assert!(csv_error(&(wide + "1,0,1,0,0\n")).contains("2 x 1025 nodes"));
+    let long: String = (0..2 * 1025).map(|k| format!("{},{},1,0,0\n", k / 2, k % 2)).collect();
+    assert!(csv_error(&long).contains("1025 x 2 nodes of alpha and mu, where 1024 a side"));
     let long_field = format!("0,0,{},0,0", "9".repeat(100_000));
     csv_error(&long_field);
     csv_error(&",".repeat(100_000));
+}
+
+#[test]
+fn no_more_rows_are_read_than_the_largest_table_has() {
+    let most = "0,0,1,0,0\n".repeat(MAX_SIDE * MAX_SIDE);
+    let error = |text: &str| SheenTable::from_csv(text).expect_err("rows of one place").to_string();
+    assert!(error(&most).contains("1 x 1048576 nodes"));
+    // What is wrong with the row after the last one, nobody looks at.
+    assert!(error(&(most + "no row")).contains("more than 1024 nodes a side"));
 }
 
 #[test]
@@ -124,6 +136,9 @@ fn bad_texels_name_their_place() {
     let at = 148 + 8 + 2;
     let mut bytes = texture();
     bytes[at..at + 2].copy_from_slice(&u16::to_le_bytes(nan));
+    assert!(dds_error(&bytes).contains("byte 156, texel (1, 0): a, b, r must be finite"));
+    let mut bytes = texture();
+    bytes[at + 2..at + 4].copy_from_slice(&u16::to_le_bytes(nan));
     assert!(dds_error(&bytes).contains("byte 156, texel (1, 0): a, b, r must be finite"));
     // r = 2.
     let mut bytes = texture();

@@ -1,5 +1,5 @@
 use half::f16;
-use velour::table::{MAX_SIDE, SheenTable};
+use velour::table::{GgxTable, MAX_SIDE, SheenTable};
 
 /// 3 x 2 nodes, all numbers different.
 fn small() -> SheenTable {
@@ -77,6 +77,70 @@ fn dds_of_floats_is_read() {
     let read = SheenTable::from_dds(&bytes).expect("a table of floats");
     assert_eq!(read.texels(), table.texels());
     assert_eq!(read.checksum(), table.checksum());
+}
+
+#[test]
+fn dds_of_direct3d_9_is_read() {
+    let table = small();
+    let with_code =
+        |bytes: &[u8], code: u32| [&bytes[..84], &code.to_le_bytes(), &bytes[88..128], &bytes[148..]].concat();
+    let halves = table.to_dds();
+    let read = SheenTable::from_dds(&with_code(&halves, 113)).expect("D3DFMT_A16B16G16R16F");
+    assert_eq!(read, SheenTable::from_dds(&halves).expect("a written table"));
+    let floats: Vec<u8> = table.texels().as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
+    let floats = [&halves[..148], &floats].concat();
+    let read = SheenTable::from_dds(&with_code(&floats, 116)).expect("D3DFMT_A32B32G32R32F");
+    assert_eq!(read.texels(), table.texels());
+    // The last r is 2.
+    let mut wrong = with_code(&floats, 116);
+    let last = wrong.len() - 16;
+    wrong[last + 8..last + 12].copy_from_slice(&2.0_f32.to_le_bytes());
+    let error = SheenTable::from_dds(&wrong).expect_err("a wrong r").to_string();
+    assert!(error.contains("byte 208, texel (2, 1): r must be in [0, 1]: 2"), "{error}");
+}
+
+#[test]
+fn half_steps_count_through_0() {
+    let table = |b: f64| SheenTable::new([2, 2], vec![[1.0, b, 0.0]; 4]);
+    let least = 2.0_f64.powi(-24);
+    assert_eq!(table(-least).half_steps(&table(2.0 * least)), Some(3));
+    assert_eq!(table(2.0 * least).half_steps(&table(-least)), Some(3));
+}
+
+/// The message of a panic.
+fn panics<T>(of: impl FnOnce() -> T + std::panic::UnwindSafe) -> String {
+    let caught = std::panic::catch_unwind(|| drop(of())).expect_err("a panic");
+    caught.downcast_ref::<String>().expect("a message").clone()
+}
+
+#[test]
+fn what_is_no_table_is_told() {
+    const CELL: [f64; 3] = [1.0, 0.0, 0.5];
+    for size in [[1, 2], [2, 1], [MAX_SIDE + 1, 2], [2, MAX_SIDE + 1]] {
+        let message = panics(|| SheenTable::new(size, vec![CELL; size[0] * size[1]]));
+        assert!(message.contains(&format!("sides are in [2, 1024]: {size:?}")), "{message}");
+    }
+    for count in [3, 5] {
+        let message = panics(|| SheenTable::new([2, 2], vec![CELL; count]));
+        assert!(message.contains("cells of a table of [2, 2] nodes"), "{message}");
+    }
+    let message = panics(|| SheenTable::new([2, 2], vec![CELL, CELL, [-1.0, 0.0, 0.5], CELL]));
+    assert!(message.contains("cell 2: a must be at least 0: -1"), "{message}");
+}
+
+#[test]
+fn what_is_not_on_a_table_is_told() {
+    let (sheen, ggx) = (small(), GgxTable::embedded());
+    for (i, j) in [(3, 0), (0, 2)] {
+        let message = panics(|| sheen.cell(i, j));
+        assert!(message.contains(&format!("node ({i}, {j}) of a table of [3, 2]")), "{message}");
+    }
+    for [x, y] in [[f64::NAN, 0.5], [0.5, f64::NAN]] {
+        let message = panics(|| sheen.lookup(x, y));
+        assert!(message.contains(&format!("lookup at alpha {x}, mu {y}")), "{message}");
+        let message = panics(|| ggx.lookup(x, y));
+        assert!(message.contains(&format!("lookup at roughness {x}, mu {y}")), "{message}");
+    }
 }
 
 #[test]
