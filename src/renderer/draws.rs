@@ -197,7 +197,7 @@ impl Frustum {
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
-    use super::super::surfaces::SURFACES_WGSL;
+    use super::super::shader::SURFACES_WGSL;
     use super::super::view::{Rect, View};
     use super::*;
     use crate::scene::{Camera, Projection};

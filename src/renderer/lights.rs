@@ -200,7 +200,7 @@ fn one_punctual(light: &PunctualLight) -> GpuPunctual {
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
-    use super::super::surfaces::SURFACES_WGSL;
+    use super::super::shader::SURFACES_WGSL;
     use super::*;
 
     #[test]

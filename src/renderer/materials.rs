@@ -136,7 +136,7 @@ pub(super) fn transforms(material: &Material) -> [Vec4; 2 * TextureSlot::COUNT] 
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
-    use super::super::surfaces::SURFACES_WGSL;
+    use super::super::shader::SURFACES_WGSL;
     use super::*;
     use crate::scene::TextureUse;
     use glam::Vec2;

@@ -14,6 +14,7 @@ mod offscreen;
 mod pipelines;
 mod prior_sheens;
 mod resident;
+mod shader;
 mod surfaces;
 mod tables;
 mod targets;
@@ -23,7 +24,7 @@ mod view;
 pub use device::{DeviceError, Gpu};
 pub use display::Showing;
 pub use offscreen::Offscreen;
-pub use surfaces::SURFACES_WGSL;
+pub use shader::SURFACES_WGSL;
 pub use targets::RadianceFormat;
 pub use view::{Rect, View};
 

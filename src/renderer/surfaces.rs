@@ -12,34 +12,12 @@ use super::draws::{Batch, Frustum, Variant};
 use super::pipelines::Pipelines;
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
+use super::shader::SURFACES_WGSL;
 use super::tables;
 use super::targets::{RadianceFormat, Targets};
 use super::view::View;
 use crate::scene::Settings;
 use crate::table::SheenTable;
-
-/// The pass' WGSL, floor by floor: each file stands on those above it in this list, and a test holds the order.
-pub const SURFACES_WGSL: &str = concat!(
-    // What engines copy.
-    include_str!("../../shaders/ltc.wgsl"),
-    include_str!("../../shaders/sheen.wgsl"),
-    include_str!("../../shaders/ggx.wgsl"),
-    // What a pipeline is made for.
-    include_str!("../../shaders/passes/variant.wgsl"),
-    // What a surface is made of.
-    include_str!("../../shaders/passes/material.wgsl"),
-    include_str!("../../shaders/passes/prior_sheens.wgsl"),
-    // How it scatters light, and the point where it does so.
-    include_str!("../../shaders/passes/lobes.wgsl"),
-    include_str!("../../shaders/passes/receiver.wgsl"),
-    // What of the lights arrives there.
-    include_str!("../../shaders/passes/polygons.wgsl"),
-    include_str!("../../shaders/passes/points.wgsl"),
-    include_str!("../../shaders/passes/lights.wgsl"),
-    // Entry points.
-    include_str!("../../shaders/passes/surfaces.wgsl"),
-    include_str!("../../shaders/passes/prior_albedos.wgsl"),
-);
 
 /// `SurfacesFrame` of `surfaces.wgsl`.
 #[repr(C)]

@@ -3,8 +3,8 @@
 use egui::{Align, Layout, Ui};
 use glam::Vec3;
 
-use super::panel::{color_button, slider};
 use super::state::{Change, State};
+use super::widgets::{color_button, slider};
 use crate::scene::{Layering, Overrides, RoughnessMap, Sheen, SheenModel};
 
 /// Share of the base that is left when layering is first made manual.

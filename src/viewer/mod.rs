@@ -9,6 +9,7 @@ mod native;
 mod orbit;
 mod panel;
 mod state;
+mod widgets;
 mod window;
 
 use winit::error::EventLoopError;

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::imports::MAY_IMPORT;
+use super::passes::{FLOORS, stem};
 use super::{files, read, root};
 
 /// Most lines of the README, which is one page.
@@ -105,6 +106,19 @@ fn import_table(text: &str) -> Vec<(String, BTreeSet<String>)> {
         (names(name).concat(), names(imports).into_iter().collect())
     };
     rows.map(row).collect()
+}
+
+/// The names in the first column of the table under a heading.
+fn floor_table(text: &str) -> Vec<Vec<&str>> {
+    let (_, rest) = text.split_once("\n### Passes\n").expect("the page has the floors");
+    let rows = rest.lines().take_while(|line| !line.starts_with('#')).filter(|line| line.starts_with("| `"));
+    rows.map(|line| line.split('|').nth(1).unwrap_or_default().split('`').skip(1).step_by(2).collect()).collect()
+}
+
+#[test]
+fn the_design_page_has_the_floors_of_the_passes() {
+    let stems: Vec<Vec<&str>> = FLOORS.iter().map(|floor| floor.iter().map(|file| stem(file)).collect()).collect();
+    assert_eq!(floor_table(&read(&root().join("docs/design.md"))), stems);
 }
 
 /// The modules that stand at the top of the library.

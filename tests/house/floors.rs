@@ -9,7 +9,26 @@ use super::imports::{climb, is_ident, is_path_separator, named};
 use super::{files, read, root};
 
 /// Folders in which this holds.
-const FOLDERS: [&str; 3] = ["src/bin/velour", "src/reference/render", "src/scene/gltf"];
+const FOLDERS: [&str; 18] = [
+    "src/bin/velour",
+    "src/figures",
+    "src/figures/fibres",
+    "src/figures/plates",
+    "src/fit",
+    "src/fit/ggx",
+    "src/fit/sheen",
+    "src/math",
+    "src/models",
+    "src/physics",
+    "src/physics/transport",
+    "src/picture",
+    "src/reference/render",
+    "src/renderer",
+    "src/scene",
+    "src/scene/gltf",
+    "src/table",
+    "src/viewer",
+];
 
 /// The names that tokens find in the folder of their file: by climbing out of `depth` modules with `super::`, or, where
 /// the folder is a crate's root, by `crate::` too.
@@ -68,12 +87,14 @@ fn circles(mut uses: Uses) -> Uses {
 
 #[test]
 fn files_stand_on_floors() {
+    let mut users = 0;
     for folder in FOLDERS {
         let uses = uses(&root().join(folder));
-        assert!(uses.values().filter(|used| !used.is_empty()).count() > 3, "{folder}: {uses:?} are all that is found");
+        users += uses.values().filter(|used| !used.is_empty()).count();
         let circles = circles(uses);
         assert!(circles.is_empty(), "{folder} has files that use each other: {circles:?}");
     }
+    assert!(users > 80, "only {users} files are seen to use others");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-const FLOORS: [&[&str]; 9] = [
+pub const FLOORS: [&[&str]; 9] = [
     // What people copy.
     &["ltc", "sheen", "ggx"],
     // What a pipeline is made for.
@@ -42,7 +42,7 @@ fn floor(file: &str) -> Option<usize> {
     FLOORS.iter().position(|floor| floor.contains(&file))
 }
 
-fn stem(file: &str) -> &str {
+pub fn stem(file: &str) -> &str {
     file.rsplit('/').next().unwrap_or(file)
 }
 
@@ -181,7 +181,7 @@ fn the_pass_is_put_together_from_the_ground_up() {
         let path = line.trim().strip_prefix("include_str!(\"../../shaders/")?.strip_suffix(".wgsl\"),")?;
         Some(path.to_owned())
     };
-    let source = read(&root().join("src/renderer/surfaces.rs"));
+    let source = read(&root().join("src/renderer/shader.rs"));
     assert_eq!(source.lines().filter_map(included).collect::<Vec<_>>(), FLOORS.concat());
 }
 

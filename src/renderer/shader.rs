@@ -1,0 +1,24 @@
+//! The text of the first pass' shader.
+
+/// The pass' WGSL, floor by floor: each file stands on those above it in this list, and a test holds the order.
+pub const SURFACES_WGSL: &str = concat!(
+    // What engines copy.
+    include_str!("../../shaders/ltc.wgsl"),
+    include_str!("../../shaders/sheen.wgsl"),
+    include_str!("../../shaders/ggx.wgsl"),
+    // What a pipeline is made for.
+    include_str!("../../shaders/passes/variant.wgsl"),
+    // What a surface is made of.
+    include_str!("../../shaders/passes/material.wgsl"),
+    include_str!("../../shaders/passes/prior_sheens.wgsl"),
+    // How it scatters light, and the point where it does so.
+    include_str!("../../shaders/passes/lobes.wgsl"),
+    include_str!("../../shaders/passes/receiver.wgsl"),
+    // What of the lights arrives there.
+    include_str!("../../shaders/passes/polygons.wgsl"),
+    include_str!("../../shaders/passes/points.wgsl"),
+    include_str!("../../shaders/passes/lights.wgsl"),
+    // Entry points.
+    include_str!("../../shaders/passes/surfaces.wgsl"),
+    include_str!("../../shaders/passes/prior_albedos.wgsl"),
+);
