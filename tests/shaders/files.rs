@@ -144,7 +144,7 @@ fn a_file_that_breaks_a_rule_is_found_out() {
         ("@compute @workgroup_size(1) fn ltc_main() {}", "entry point"),
         ("fn ltc_list() { var list: array<f32, 4>; }", "array"),
         ("// #define LTC", "preprocessor or directive"),
-        (&"\n".repeat(200), "211 lines"),
+        (&"\n".repeat(200), "213 lines"),
     ] {
         assert_eq!(problems("ltc", &format!("{good}{addition}\n")), [problem], "{addition}");
     }
