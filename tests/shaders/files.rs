@@ -148,7 +148,7 @@ fn a_file_that_breaks_a_rule_is_found_out() {
         ("fn ltc_more(vertex: f32) {}", "reserved word vertex"),
         ("fn ltc_list() { var list: array<f32, 4>; }", "array"),
         ("// #define LTC", "preprocessor or directive"),
-        (&"\n".repeat(200), "211 lines"),
+        (&"\n".repeat(200), "213 lines"),
     ] {
         assert_eq!(problems("ltc", &format!("{good}{addition}\n")), [problem], "{addition}");
     }
