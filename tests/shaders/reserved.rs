@@ -71,8 +71,10 @@ fn declared(source: &str) -> Vec<&str> {
             let from_word = &rest[start..];
             let (word, after) =
                 from_word.split_at(from_word.find(|letter| !is_part(letter)).unwrap_or(from_word.len()));
+            // Not what stands in brackets, as of `var<private> name`.
+            let is_declared = DECLARING.contains(&before) && rest[..start].trim().is_empty();
             let is_typed = after.trim_start().starts_with(':') && word != "default";
-            if is_typed || DECLARING.contains(&before) {
+            if is_declared || is_typed {
                 found.push(word);
             }
             (before, rest) = (word, after);
@@ -88,6 +90,7 @@ fn reserved_words_are_found_wherever_they_are_declared() {
         ("fn f() {\n    let lit = 1.0;\n}", "lit"),
         ("fn f() {\n    for (var sample = 0u; sample < 4u; sample++) {}\n}", "sample"),
         ("fn f() { const half = 0.5; }", "half"),
+        ("fn f() { var<function> kernel: f32; }", "kernel"),
         ("struct S {\n    point : vec3f,\n}", "point"),
         ("fn noise() {}", "noise"),
         ("fn f(p: array<f32, 4>,\n    // one\n    level: f32) {}", "level"),
@@ -97,5 +100,5 @@ fn reserved_words_are_found_wherever_they_are_declared() {
     let fine =
         "// let lit = vertex: f32\nfn f(corner: vec3f) -> f32 {\n    return sqrt(length(corner)); // default: point\n}";
     assert_eq!(reserved(fine), [""; 0]);
-    assert_eq!(reserved("fn f() { switch 1 { default: {} } }"), [""; 0]);
+    assert_eq!(reserved("var<private> state: f32; fn f() { switch 1 { default: {} } }"), [""; 0]);
 }
