@@ -1,7 +1,7 @@
 // Form factors of polygonal lights under linearly transformed cosines (Heitz et al. 2016), clipped exactly at the horizon.
 // Copy with it: nothing. Lobes are matrices m_inv with rows (a,0,b), (0,c,0), (0,0,1): the identity is the diffuse one, sheen.wgsl gives another.
 // Frame: z = normal, x = view projected on the surface; vertices are relative to the shaded point, counter-clockwise seen from the lit side.
-// Example: outline = ltc_next(outline, frame * (vertex - position)); sum += ltc_edge(outline, m_inv); turn = ltc_turn(turn, outline, m_inv);
+// Example: outline = ltc_next(outline, frame * (corner - position)); sum += ltc_edge(outline, m_inv); turn = ltc_turn(turn, outline, m_inv);
 // Ranges: coordinates to 1e5, a and c to 1e3; any number of vertices, in contours that do not cross; form factors in [0,1]; never NaN.
 // Greatest error: 5e-7 for vertices exact in the frame, 5e-6 a millionth of its size from an edge, times c/a; taking them there adds 1e-7 size/distance.
 
@@ -15,7 +15,7 @@ const LTC_LEVEL = vec2<f32>(1.0, 0.0);
 
 // An outline on its way round: the edge walked last, cut to its part above the horizon.
 struct LtcOutline {
-    vertex: vec3<f32>,  // the vertex reached
+    corner: vec3<f32>,  // the vertex reached
     p: vec3<f32>,       // the part above the horizon starts in this direction
     q: vec3<f32>,       // and ends in this one
     normal: vec3<f32>,  // of the plane through the edge and the shaded point: q x p, up to a factor
@@ -54,20 +54,20 @@ fn ltc_begin(last: vec3<f32>) -> LtcOutline {
 }
 
 // Walks to the next vertex.
-fn ltc_next(outline: LtcOutline, vertex: vec3<f32>) -> LtcOutline {
-    let start = outline.vertex;
+fn ltc_next(outline: LtcOutline, corner: vec3<f32>) -> LtcOutline {
+    let start = outline.corner;
     let starts_above = start.z > LTC_HORIZON;
-    let ends_above = vertex.z > LTC_HORIZON;
-    let normal = ltc_cross(vertex, start);
-    // The crossing start vertex.z - vertex start.z is z x (start x vertex): it inherits the accuracy of the product.
+    let ends_above = corner.z > LTC_HORIZON;
+    let normal = ltc_cross(corner, start);
+    // The crossing start corner.z - corner start.z is z x (start x corner): it inherits the accuracy of the product.
     let across = select(1.0, -1.0, starts_above) * normal;
     let crossing = vec3(across.y, -across.x, 0.0);
     let p = select(crossing, start, starts_above);
-    let q = select(crossing, vertex, ends_above);
-    let height = max(max(start.z, vertex.z) - LTC_HORIZON, 0.0);
+    let q = select(crossing, corner, ends_above);
+    let height = max(max(start.z, corner.z) - LTC_HORIZON, 0.0);
     let sine = select(height, 1.0, starts_above && ends_above);
     let turn = select(LTC_LEVEL, vec2(across.y, -normal.x), starts_above != ends_above);
-    return LtcOutline(vertex, p, q, normal, sine, turn);
+    return LtcOutline(corner, p, q, normal, sine, turn);
 }
 
 // What the edge walked last adds to a lobe's sum over all contours of a polygon.
@@ -98,8 +98,8 @@ fn ltc_turn(turn: vec2<f32>, outline: LtcOutline, m_inv: mat3x3<f32>) -> vec2<f3
 
 // The form factor from a lobe's sum and turn, and the light's side; 0 where m_inv is singular.
 fn ltc_form_factor(sum: f32, turn: vec2<f32>, m_inv: mat3x3<f32>, side: f32) -> f32 {
-    let lit = ltc_vector(vec3(0.0, 0.0, sum), turn, side).z;
-    return select(0.0, clamp(lit, 0.0, 1.0), m_inv[0].x * m_inv[1].y > 0.0);
+    let share = ltc_vector(vec3(0.0, 0.0, sum), turn, side).z;
+    return select(0.0, clamp(share, 0.0, 1.0), m_inv[0].x * m_inv[1].y > 0.0);
 }
 
 // The integral of the directions in which a light is seen above the horizon, over pi: its z is the diffuse form factor.

@@ -3,11 +3,13 @@
 use std::path::Path;
 use wgpu::naga::{self, TypeInner};
 
+use super::reserved::reserved;
+
 /// Each file with what its header's example takes for granted.
 const FILES: [(&str, &str); 3] = [
     (
         "ltc.wgsl",
-        "fn example(frame: mat3x3<f32>, last: vec3<f32>, vertex: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
+        "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
             var outline = ltc_begin(frame * (last - position));
             var sum = 0.0;
             var turn = LTC_LEVEL;",
@@ -70,6 +72,7 @@ fn problems(stem: &str, source: &str) -> Vec<String> {
         problems.push("array".to_owned());
     }
     problems.extend(names(source).filter(|name| !has_stem(name, stem)).map(|name| format!("name {name}")));
+    problems.extend(reserved(source).into_iter().map(|name| format!("reserved word {name}")));
     problems
 }
 
@@ -134,6 +137,7 @@ fn a_file_that_breaks_a_rule_is_found_out() {
         ("@group(0) @binding(0) var<storage> ltc_data: vec4<f32>;", "binding or global"),
         ("var<private> ltc_state: f32;", "binding or global"),
         ("@compute @workgroup_size(1) fn ltc_main() {}", "entry point"),
+        ("fn ltc_more(vertex: f32) {}", "reserved word vertex"),
         ("fn ltc_list() { var list: array<f32, 4>; }", "array"),
         ("// #define LTC", "preprocessor or directive"),
         (&"\n".repeat(200), "211 lines"),

@@ -7,6 +7,7 @@ mod ggx;
 mod millions;
 mod named_cases;
 mod polygons;
+mod reserved;
 mod sampling;
 mod sheen;
 mod sweeps;
