@@ -13,7 +13,7 @@ struct GgxLobe {
     fresnel: f32,        // the same weighted by (1 - dot(view, half vector))^5
 }
 
-// Shapes at lower cosines than this are those at it.
+// Below this cosine, shapes are those at it.
 const GGX_GRAZING = 0.01;
 // Least a / c and s: whatever is bound as the table, the matrix is finite.
 const GGX_LEAST_ASPECT = 1e-5;
@@ -31,7 +31,7 @@ fn ggx_lobe(table: texture_2d<f32>, roughness: f32, mu: f32) -> GgxLobe {
     let below = vec2(0u, size.y);
     let shape = ggx_between(table, low, high, weight);
     let share = ggx_between(table, low + below, high + below, weight);
-    // What mirrors exactly, and the table's small rest.
+    // An exact mirror's matrix, plus the remainder that the table holds.
     let m = max(cosine, GGX_GRAZING);
     let aspect = max(m * m + shape.x, GGX_LEAST_ASPECT);
     let lean = m * sqrt((1.0 - m) * (1.0 + m)) + shape.y;

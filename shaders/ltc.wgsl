@@ -84,7 +84,7 @@ fn ltc_edge(outline: LtcOutline, m_inv: mat3x3<f32>) -> f32 {
     return normal.z * ltc_arc(normal, outline.sine, dot(p, q));
 }
 
-// The same for the diffuse lobe as a vector: ltc_vector makes of the sum where the light comes from on average.
+// The same for the diffuse lobe as a vector: ltc_vector turns the sum into the light's mean direction.
 fn ltc_edge_vector(outline: LtcOutline) -> vec3<f32> {
     return outline.normal * ltc_arc(outline.normal, outline.sine, dot(outline.p, outline.q));
 }

@@ -20,7 +20,7 @@ use obvhs::{Boundable, BvhBuildParams};
 const SPAN: f64 = (1 << 20) as f64;
 /// Padding of a box: sixteen roundings of a coordinate, and those of a ray that is a few times as long as the scene.
 const PADDING: f32 = 2e-6 * SPAN as f32;
-/// How far behind a hit boxes are still looked into: this share of its distance, and of half the scene's size.
+/// How far beyond a hit boxes are still visited, as a share of its distance and of half the scene's size.
 const BEHIND: f64 = 1e-5;
 
 /// How far outside an edge a ray still meets a triangle, in weights of the corners, so that neighbours leave no gap.

@@ -39,7 +39,7 @@
 //! | symbol | name | range | source |
 //! |---|---|---|---|
 //! | `roughness` | the user's parameter; of the specular base, `alpha = roughness^2` | \[0, 1\] | glTF: sheenRoughnessFactor, roughnessFactor |
-//! | `alpha` | roughness of the layer: small is fuzz, large is dust; `alpha = roughness` | \[0, 1\] | Z |
+//! | `alpha` | roughness of the layer: small is fuzz, large is dust; `alpha = roughness` unless another `RoughnessMap` is chosen | \[0, 1\] | Z |
 //! | `sigma` | cross-section of the fibres seen along their axis, `alpha^2` | (0, 1] | S |
 //! | `C_sheen` | colour of the sheen, linear Rec. 709 | \[0, 1\] each | Z eq. 1 |
 //! | `wi` | direction whose elevation picks the lobe (the view in rendering), unit, away from the surface | upper hemisphere | Z |

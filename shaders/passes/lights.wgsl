@@ -59,8 +59,8 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
     return incident;
 }
 
-// The first polygon from one on, before the end, that may light the point: not wholly below its horizon, nor turned away from it. Points side by
-// side skip dark lights each on their own, and walk round lit ones together.
+// The first polygon from one on, before the end, that may light the point: not wholly below its horizon, nor turned away from it. Neighbouring
+// pixels each skip the lights that cannot reach them, and then integrate the lit ones in step.
 fn lights_next(receiver: Receiver, first: u32, end: u32) -> u32 {
     var index = first;
     while index < end {

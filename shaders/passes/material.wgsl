@@ -86,7 +86,7 @@ struct MaterialSurface {
 @group(1) @binding(18) var material_sheen_roughness_sampler: sampler;
 @group(1) @binding(19) var material_sheen_weight_sampler: sampler;
 
-// A uniform, since filtering takes derivatives: pixels that only help others to theirs may read zeros from storage.
+// A uniform, because texture filtering takes derivatives, and helper invocations may read zeros from storage.
 @group(1) @binding(20) var<uniform> material_transforms: MaterialTransforms;
 
 // Without textures and vertex colours.

@@ -1,15 +1,16 @@
 // Form factors of lobes that have no closed form: sums over points on a polygon light.
 
-// Points on each polygon, w the areas that they stand for.
+// Points on each polygon; w is the area that each stands for.
 @group(0) @binding(9) var<storage, read> points_on_polygons: array<vec4f>;
 
-// Most of a light that the points may see of it, over its exact form factor.
+// Greatest ratio of what the points see of a light to its exact form factor.
 const POINTS_MOST = 2.0;
 
-// The prior sheen's form factor of a polygon, over its albedo. As near as points are to each other they say too much or too
-// little: never more than POINTS_MOST times as much of the light as is there, by the diffuse lobe's exact form factor.
+// The prior sheen's form factor of a polygon, over its albedo. Closer to the light than the points are to each other, the sum is too large or
+// too small: it is limited to POINTS_MOST times what the diffuse lobe's exact form factor allows.
 fn points_sheen(receiver: Receiver, polygon: u32, diffuse: f32) -> f32 {
-    var sums = vec2f(0.0);
+    var sheen = 0.0;
+    var diffuse_of_points = 0.0;
     let end = select(0u, polygons_lights[polygon].end_point, diffuse > 0.0);
     for (var index = polygons_lights[polygon].first_point; index < end; index++) {
         let point = points_on_polygons[index];
@@ -18,9 +19,10 @@ fn points_sheen(receiver: Receiver, polygon: u32, diffuse: f32) -> f32 {
         let wo = receiver.local_from_world * (way * inverse);
         if dot(receiver.up, wo) > 0.0 {
             let solid_angle = point.w * abs(dot(polygons_lights[polygon].normal, way)) * inverse * inverse * inverse;
-            sums += solid_angle * vec2f(prior_sheens_value(receiver.prior_sheen, wo), max(wo.z, 0.0));
+            sheen += solid_angle * prior_sheens_value(receiver.prior_sheen, wo);
+            diffuse_of_points += solid_angle * max(wo.z, 0.0);
         }
     }
     let most = POINTS_MOST * LTC_PI * diffuse;
-    return sums.x * most / max(sums.y, max(most, 1e-30)) / receiver.prior_sheen.albedo;
+    return sheen * most / max(diffuse_of_points, max(most, 1e-30)) / receiver.prior_sheen.albedo;
 }

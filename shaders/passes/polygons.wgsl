@@ -22,7 +22,7 @@ struct PolygonsLight {
 // from a light's plane are in it, so that a light does not shine on itself.
 const POLYGONS_POSITION_ERROR = 1e-6;
 
-// The angles along the horizon that close what is cut off there: one for all lobes with c = a, one for each other lobe.
+// The angles along the horizon that close the clipped contours: one for all lobes with c = a, one for each other lobe.
 struct PolygonsTurns {
     // Of the diffuse lobe and the sheen.
     isotropic: vec2f,
@@ -107,8 +107,7 @@ fn polygons_begin(walk: PolygonsWalk, vertex: vec3f, is_begun: bool) -> Polygons
     return next;
 }
 
-// is_quad where the light is known to be one outline of four vertices: what is not in a loop, and loads from places that are
-// known, costs two thirds.
+// is_quad: the light is one outline of four vertices. Unrolled, with loads from fixed places, its walk takes two thirds of the time.
 fn polygons_integrals(receiver: Receiver, light: PolygonsLight, is_quad: bool) -> PolygonsIntegrals {
     let to_vertex = polygons_vertices[light.first_vertex].xyz - receiver.p_world;
     let side = ltc_side(light.normal, to_vertex, light.two_sided != 0u);

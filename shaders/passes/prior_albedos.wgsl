@@ -12,7 +12,7 @@ fn prior_albedos_vertex(@builtin(vertex_index) index: u32) -> @builtin(position)
 @fragment
 fn prior_albedos_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let view = prior_sheens_view_of_node(vec2<u32>(position.xy));
-    // Drivers' sines may err by 5e-4, which narrow lobes would notice: directions are unit all the same.
+    // Drivers' sines may err by 5e-4, which narrow lobes would show: so directions are normalised.
     var sum = 0.0;
     for (var k = 0u; k < PRIOR_ALBEDOS_ELEVATIONS * PRIOR_ALBEDOS_AZIMUTHS; k++) {
         let rise = (f32(k / PRIOR_ALBEDOS_AZIMUTHS) + 0.5) / f32(PRIOR_ALBEDOS_ELEVATIONS);

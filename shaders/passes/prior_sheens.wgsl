@@ -6,7 +6,7 @@ const PRIOR_SHEENS_BURLEY = 1u;
 const PRIOR_SHEENS_CONTY_KULLA = 2u;
 const PRIOR_SHEENS_NEUBELT_PETTINEO = 3u;
 const PRIOR_SHEENS_PATRY = 4u;
-// Smaller alphas are taken for it.
+// Smaller alphas are replaced by this one.
 const PRIOR_SHEENS_LEAST_ALPHA = 0.03;
 // Logarithms of albedos. Node k of n sits at k/(n-1): alpha = least + (1 - least) x^2 along x; along y mu = (p (2 - p))^4 for each model in turn.
 override PRIOR_SHEENS_NODES: u32 = 2;
@@ -30,7 +30,7 @@ struct PriorSheensFit {
     e: f32,
     // 2 L(0.5)
     twice_middle: f32,
-    // Where Lambda times the cosine is largest, and that largest value, which it keeps below.
+    // The cosine at which Lambda times the cosine is largest, and that value, which it keeps below it.
     turning_point: f32,
     limit: f32,
 }
@@ -52,7 +52,7 @@ fn prior_sheens_node(at: vec2<u32>) -> f32 {
     return textureLoad(prior_sheens_log_albedos, at, 0).x;
 }
 
-// The variant's model. `local` is the direction to the view in the shading frame, of which mu takes the place of the cosine.
+// The variant's model. `local` points to the view in the shading frame; mu replaces its cosine.
 fn prior_sheens_view(local: vec3f, mu: f32, alpha: f32, albedo: f32) -> PriorSheensView {
     let towards = vec3f(length(local.xy), 0.0, max(mu, 1e-10));
     return prior_sheens_view_of(VARIANT_SHEEN_MODEL, max(alpha, PRIOR_SHEENS_LEAST_ALPHA), towards, albedo);

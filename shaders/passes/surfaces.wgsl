@@ -1,5 +1,5 @@
 // The first pass: every surface's radiance towards the eye: emission, and the lobes lit by all lights.
-// It stands on the floors of the other files, which src/renderer/surfaces.rs lists.
+// It stands on the floors of the other files, which src/renderer/shader.rs lists.
 
 struct SurfacesFrame {
     clip_from_world: mat4x4f,
@@ -13,7 +13,7 @@ struct SurfacesFrame {
     // The camera's place. Interpolated positions are relative to it: drivers err by a share of what they interpolate.
     origin: vec3f,
     ambient: vec3f,
-    // What radiance is multiplied by before it is stored, so that the range of the targets' floats is the screen's.
+    // Radiance is multiplied by this before it is stored, so that the targets' floats cover the range that the screen shows.
     gain: f32,
 }
 
@@ -40,7 +40,7 @@ struct SurfacesVarying {
     @location(1) @interpolate(perspective, centroid) n_world: vec3f,
     @location(2) @interpolate(flat) emission: vec3f,
     @location(3) @interpolate(flat) material: u32,
-    // At the centre after all: what derivatives are taken of, which jump where centroids do.
+    // At the pixel's centre, because derivatives are taken of it; those of centroid values jump.
     @location(4) n_center: vec3f,
 }
 
@@ -163,13 +163,13 @@ fn surfaces_radiance(
     return surfaces_stored(radiance, opacity);
 }
 
-// As the target holds it: opacity times radiance, none of it infinite, which blending would make nothing of.
+// As the target holds it: opacity times radiance, kept finite, because blending turns infinities into NaN.
 fn surfaces_stored(radiance: vec3f, opacity: f32) -> vec4f {
     return vec4f(opacity * min(surfaces_frame.gain * radiance, vec3f(SURFACES_GREATEST)), opacity);
 }
 
-// Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. Where the sheen is
-// brightest a sample of it there would be anything between; this is the mean of what is seen of a pixel that is so wide in cosine.
+// Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. A single sample there could be anything
+// up to the sheen's peak; this is the mean over the visible part of a pixel whose cosines span `width`.
 fn surfaces_visible_mean(mu: f32, width: f32) -> f32 {
     let half_width = min(0.5 * width, 0.5);
     return 0.5 * (max(mu - half_width, 0.0) + max(mu + half_width, 0.0));

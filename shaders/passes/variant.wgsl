@@ -14,7 +14,7 @@ override VARIANT_PRIOR_SHEEN: bool = VARIANT_SHEEN_MODEL != 0u;
 override VARIANT_TEXTURES: u32 = 0;
 override VARIANT_NORMAL_MAP: bool = (VARIANT_TEXTURES & 4u) != 0u;
 
-// Which kinds of lights there are: a driver may run the body of a loop once that has nothing to do.
+// Which kinds of lights there are: some drivers run a loop's body once even where there is nothing to loop over.
 override VARIANT_QUADS: bool = true;
 override VARIANT_POLYGONS: bool = true;
 override VARIANT_PUNCTUAL: bool = true;

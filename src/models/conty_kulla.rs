@@ -46,7 +46,7 @@ pub struct ContyKulla {
 }
 
 impl ContyKulla {
-    /// The sheen of r = `alpha` in \[0, 1\]; below [`LEAST_ALPHA`] it is the sheen of that. Towards 0 the half vectors
+    /// The sheen of r = `alpha` in \[0, 1\]; below [`LEAST_ALPHA`], the sheen of that alpha is used. Towards 0 the half vectors
     /// gather at the horizon.
     pub fn new(alpha: f64, terminator: Terminator) -> Self {
         check_alpha(alpha);

@@ -28,7 +28,7 @@ pub struct NeubeltPettineo {
 }
 
 impl NeubeltPettineo {
-    /// The cloth of the paper's `alpha` in \[0, 1\]; below [`LEAST_ALPHA`] it is the cloth of that. Towards 0 the peak
+    /// The cloth of the paper's `alpha` in \[0, 1\]; below [`LEAST_ALPHA`], the cloth of that alpha is used. Towards 0 the peak
     /// vanishes into the horizon, and D tends to 1 / pi.
     pub fn new(alpha: f64) -> Self {
         check_alpha(alpha);

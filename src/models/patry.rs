@@ -31,8 +31,8 @@ pub struct Patry {
 }
 
 impl Patry {
-    /// The fuzz of the slab's `alpha` in \[0, 1\], whose square is the fibres' cross-section; below [`LEAST_ALPHA`] it
-    /// is the fuzz of that. Towards 0 the fibres do not change the elevation of light: nothing comes back.
+    /// The fuzz of the slab's `alpha` in \[0, 1\], whose square is the fibres' cross-section; below [`LEAST_ALPHA`],
+    /// the fuzz of that alpha is used. Towards 0 the fibres do not change the elevation of light: nothing comes back.
     pub fn new(alpha: f64) -> Self {
         check_alpha(alpha);
         let layer = Layer { medium: Sggx::new(sigma_from_alpha(alpha.max(LEAST_ALPHA))) };

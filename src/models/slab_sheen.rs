@@ -1,4 +1,4 @@
-//! The sheen as the slab has it.
+//! The sheen of the slab itself.
 
 use super::elevations::{Drawn, Elevations};
 use super::{Bsdf, Sample, check_alpha, check_uniforms, cosine};

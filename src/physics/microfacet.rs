@@ -18,7 +18,7 @@ use crate::math::{check_cosine, sine, sine_square};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Least alpha: smoother surfaces are this rough. Their highlight is as sharp as a light seen at a sixth of a degree.
+/// Least alpha: smoother surfaces are treated as this rough. Their highlight is as sharp as a light seen at a sixth of a degree.
 pub const LEAST_ALPHA: f64 = 1e-3;
 
 /// Microfacets of roughness alpha.

@@ -12,8 +12,8 @@ const CROSSING_TOLERANCE: f64 = 1e-4;
 
 /// The closed contours around `triangles`, whose vertices are in `positions`. They lie in a plane of unit `normal` and
 /// run counter-clockwise seen from the side to which it points. So do the contours around their area; contours around
-/// holes run clockwise. Vertices on straight runs are dropped. What is linear integrates over the contours to what it
-/// does over the triangles.
+/// holes run clockwise. Vertices on straight runs are dropped. Linear functions have the same integral over
+/// the contours as over the triangles.
 pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DVec3], normal: DVec3) -> Vec<Vec<Vec3>> {
     let (right, up) = normal.any_orthonormal_pair();
     let loops = loops(boundary(triangles));

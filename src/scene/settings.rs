@@ -93,7 +93,7 @@ impl RoughnessMap {
 }
 
 /// What the sheen's lobe is. In real time the transformed cosine is integrated over lights in closed form. Models of
-/// prior work have no closed form: for comparison, they are summed over 128 points on each polygon light.
+/// prior work have no closed form: for comparison, they are summed over 128 points or more on each polygon light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SheenModel {
     /// The fitted transformed cosine (Zeltner, Burley, Chiang 2022).
@@ -150,8 +150,8 @@ pub enum Layering {
     Manual(f32),
     /// All of it.
     None,
-    /// Light is followed through the layer and the base, through all orders of scattering: what the rules approximate.
-    /// Not in real time.
+    /// Light is followed through the layer and the base in all orders of scattering, which the rules approximate. Not
+    /// in real time.
     Walk,
 }
 

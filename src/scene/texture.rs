@@ -5,7 +5,7 @@ use glam::{Affine2, DVec2};
 /// A decoded picture: 8 bits a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// The file's name of it, for messages; may be empty.
+    /// Its name in the file, for messages; may be empty.
     pub name: String,
     /// In texels, > 0.
     pub width: u32,

@@ -59,7 +59,7 @@ pub(super) fn write([width, height]: [usize; 2], texels: impl Iterator<Item = [f
         alpha_mode: AlphaMode::Custom,
     })
     .expect("RGBA16F is a format that the crate lays out");
-    // Processors that convert halves do so by way of f32: of two that are equally near to 7 digits, it may be either.
+    // Processors convert to halves by way of f32, so a number midway between two halves may round to either.
     dds.data = texels.flatten().flat_map(|value| f16::from_f64(value).to_le_bytes()).collect();
     let mut bytes = Vec::new();
     dds.write(&mut bytes).expect("writing to memory does not fail");

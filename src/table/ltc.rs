@@ -16,6 +16,9 @@ pub struct Ltc {
 }
 
 impl Ltc {
+    /// The clamped cosine itself: the identity matrix.
+    pub const COSINE: Self = Self { a: 1.0, b: 0.0, c: 1.0 };
+
     /// The sheen's matrix, of the table's columns a and b: c = a.
     pub const fn sheen(a: f64, b: f64) -> Self {
         Self { a, b, c: a }

@@ -25,7 +25,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Longest file that [`SheenTable::load`] reads, in bytes: room for the largest table as text.
+/// Longest file that a table is loaded from, in bytes: room for the largest table as text.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// Why a table was not read. Each message is one line: what is wrong, where, and what to do.

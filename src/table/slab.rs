@@ -51,8 +51,8 @@ pub struct SlabTable {
 #[derive(Clone, Debug)]
 pub struct SlabSlice {
     warp: SlabWarp,
-    /// v0, v1, v2, 0; mu_o varies fastest. In `f32`, in which halves lose little, so that all of it stays in the
-    /// processor's cache.
+    /// v0, v1, v2, 0; mu_o varies fastest. In `f32`: precise enough for interpolated halves, and small enough to stay in
+    /// the processor's cache.
     cells: Box<[[f32; 4]; SLAB_SIDE * SLAB_SIDE]>,
 }
 

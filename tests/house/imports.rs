@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::{files, read, root};
 
-/// Each module at the top of the library, and those that it may import. the binary sees all.
+/// Each module at the top of the library, and those that it may import. The binary sees all.
 pub const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("math", &[]),
     ("file", &[]),

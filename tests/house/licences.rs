@@ -12,7 +12,8 @@ use super::{files, read, root};
 const COPIED: [&str; 2] =
     ["SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD", "SPDX-FileCopyrightText: 2026 The Velour authors"];
 
-/// What code may be under, of what dependencies leave us to choose: no copyleft, which asks for the source of what is built with it.
+/// Licences that code may be under; where a dependency offers a choice, one of these is enough. None is copyleft, which asks for the source of
+/// what is built with it.
 const CODE: [&str; 7] = ["Apache-2.0", "BSD-3-Clause", "BSL-1.0", "ISC", "MIT", "Unicode-3.0", "Zlib"];
 
 /// The crate that holds the window's fonts, and what these may be under. `NOTICE-fonts` goes with them.

@@ -2,8 +2,9 @@
 
 use super::run::Bench;
 
-const DOCUMENTS: [(&str, &str); 3] = [
+const DOCUMENTS: [(&str, &str); 4] = [
     ("README.md", include_str!("../../README.md")),
+    ("CONTRIBUTING.md", include_str!("../../CONTRIBUTING.md")),
     ("docs/scenes.md", include_str!("../../docs/scenes.md")),
     ("docs/accuracy.md", include_str!("../../docs/accuracy.md")),
 ];

@@ -241,7 +241,7 @@ fn the_walk_is_the_slab_and_the_fit_is_near() {
             "alpha {alpha}: {found} {expected} {error}"
         );
         if alpha < 0.5 {
-            // Few paths come back here, and a pixel that none of them brings light to does not show that in its error.
+            // Few paths return light here, and a pixel that received none has an estimated error of 0.
             continue;
         }
         // Pixels one by one, each with its own noise.

@@ -44,9 +44,9 @@ pub enum Command {
     /// channels; the mean error is mean (A - B).
     ///
     /// FLIP is the mean over the picture, in [0,1], at 67 pixels a degree, of values rounded to 8 bits. For .exr it is
-    /// HDR-FLIP: each pixel's greatest over exposures a stop apart or less (2 to 32 of them; past 32 stops farther
-    /// apart), from that which shows B's greatest luminance at 0.85 to that which does so with the median of its
-    /// luminances above 0, through the ACES tone curve published with it.
+    /// HDR-FLIP: each pixel's greatest value over 2 to 32 exposures, a stop or less apart (farther apart past 32
+    /// stops), from the one that shows B's greatest luminance at 0.85 to the one that shows the median of its
+    /// luminances above 0 there, through the ACES tone curve published with it.
     ///
     /// Pixels that are infinite or not a number are bad input.
     Compare(Compare),

@@ -85,8 +85,8 @@ struct Files<T> {
 }
 
 impl<T> Files<T> {
-    /// None where the table is not asked for. With `--check` the files are read, else it is seen that they can be
-    /// written.
+    /// None where the table is not asked for. With `--check` the files are read; otherwise it is checked that they can
+    /// be written.
     fn of(
         arguments: &Fit,
         table: Table,

@@ -177,7 +177,7 @@ mod tests {
             (".alpha=0.5", &[2]),
             ("0.alpha=0.5", &[0]),
             ("3.alpha=0.5", &[3]),
-            // A name goes before a number.
+            // Names take precedence over numbers.
             ("1.alpha=0.5", &[4]),
         ] {
             let resolved = resolve(&[assignment(text).unwrap()], &materials).unwrap();

@@ -23,7 +23,7 @@ pub struct PictureArgs {
     /// A camera of the scene, by name or by index [default: the first]
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
-    /// Gives every material a sheen of this roughness, in [0,1]
+    /// Gives every material a sheen of this alpha, in [0,1]
     #[arg(long, value_name = "A", value_parser = overrides::share, allow_negative_numbers = true)]
     pub alpha: Option<f32>,
     /// Gives every material a sheen of this colour, linear Rec. 709, each in [0,1]
@@ -33,8 +33,8 @@ pub struct PictureArgs {
     /// repeatable
     #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
     pub set: Vec<Assignment>,
-    /// What of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through the
-    /// fibres themselves, whatever the model, and the base (with `velour reference` only) [default: gltf]
+    /// How much of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through
+    /// fibres and base, whatever the sheen's model (with `velour reference` only) [default: gltf]
     #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = overrides::layering)]
     pub layering: Option<Layering>,
     /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]
@@ -42,7 +42,7 @@ pub struct PictureArgs {
     pub roughness_map: Option<RoughnessMap>,
     /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path
     /// by path (both with `velour reference` only); or a model of earlier work, to compare with: in real time it is
-    /// summed over 128 points on each polygon light [default: ltc]
+    /// summed over 128 points or more on each polygon light [default: ltc]
     #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = overrides::sheen_model)]
     pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds

@@ -29,10 +29,10 @@ pub struct Reference {
     /// Another seed gives other noise; the same one the same picture, on any number of threads
     #[arg(long, default_value_t = 0, value_name = "N", allow_negative_numbers = true)]
     pub seed: u64,
-    /// Surfaces that light meets between a light and the one that is seen; 0 is direct light, at most 1000
+    /// Surfaces that light may bounce off before the one that is seen; 0 is direct light alone; at most 1000
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
     pub max_bounces: u32,
-    /// Surfaces stand in each other's light
+    /// Surfaces cast shadows
     #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
     pub shadows: Switch,
     /// Samples lie all over the pixel, or at its centre as with `velour render --msaa 1`

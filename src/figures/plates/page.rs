@@ -44,7 +44,7 @@ pub fn page(figures: &[Figure]) -> String {
          ## Dust of roughness 0.85 on a sculpted form\n\n![dust](dust.png)\n\n\
          ## Models over roughness, lit from 60 degrees\n\n{sweep}\n\
          ## The slab: fitted, tabulated, walked through\n\n{slabs}\n\
-         ## Over a grey base: what rules leave of it, and what light finds that goes through both\n\n{rules}\n\
+         ## A grey base: what the layering rules leave of it, and light followed through both layers\n\n{rules}\n\
          ## The table, its lobes and errors, and explicit fibres\n\n{}",
         drawn.join("\n")
     )

@@ -29,7 +29,7 @@ pub(super) fn row(resolution: usize, mu: f64) -> Vec<Fit> {
     for i in (0..resolution).rev() {
         let ggx = Ggx::from_roughness(node(i, resolution));
         // The one before, made sharper by as much as the surface is smoother; at first a round one.
-        let start = above.map_or(Ltc { a: 1.0, b: 0.0, c: 1.0 }, |(rougher, Ltc { a, b, c })| {
+        let start = above.map_or(Ltc::COSINE, |(rougher, Ltc { a, b, c })| {
             let sharper = rougher.alpha() / ggx.alpha();
             Ltc { a: a * sharper, b: b * sharper, c: c * sharper }
         });

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::chooser::{Chooser, Sampled};
 use super::context::Context;
 use super::lights::{Lit, arriving};
-use super::lobes::{COSINE, Lobes};
+use super::lobes::Lobes;
 use super::surface::Surface;
 use super::uniforms::Sample;
 use crate::scene::PunctualLight;
@@ -26,10 +26,10 @@ impl<'a> DirectLight<'a> {
     pub fn new(context: &'a Context<'a>, surface: &'a Surface, lobes: &Lobes, most: usize) -> Self {
         let mut sampled: Sampled = lobes.lobes.iter().map(|lobe| (lobe.albedo(surface.mu()), lobe.ltc)).collect();
         let others = lobes.lobes.iter().filter(|lobe| !lobe.is_near);
-        sampled.extend(others.map(|lobe| (lobe.albedo(surface.mu()), COSINE)));
+        sampled.extend(others.map(|lobe| (lobe.albedo(surface.mu()), Ltc::COSINE)));
         if let Some(at) = surface.sheen.filter(|at| at.is_walked()) {
             let [a, b, r] = context.models.sheen_table.lookup(at.alpha, surface.mu());
-            sampled.push((at.color * r, Ltc { a, b, c: a }));
+            sampled.push((at.color * r, Ltc::sheen(a, b)));
         }
         sampled.retain(|(color, ltc)| color.max_element() > 0.0 && ltc.a > 0.0);
         let seen = context.lights.seen(surface.p_world, surface.world_from_local.transpose(), surface.up);

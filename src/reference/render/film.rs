@@ -44,7 +44,7 @@ impl Film {
             let pixels = pixels.iter().map(|pixel| value(pixel).as_vec3().to_array()).collect();
             LinearImage { width, height, pixels }
         };
-        // What is brighter than a file's numbers go is stored as their greatest.
+        // Values beyond a file's range are stored as its greatest number.
         let greatest = f64::from(f32::MAX);
         let deviation = |pixel: &Pixel| {
             let scale = if batches > 1 { 1.0 / ((batches - 1) as f64 * samples as f64) } else { f64::NAN };
@@ -83,8 +83,8 @@ impl Picture {
         (errors.is_finite() && radiance > 0.0).then(|| errors / radiance)
     }
 
-    /// The standard error of a pixel's luminance, relative to it, that `share` in \[0, 1\] of the pixels that are not
-    /// black stay below.
+    /// The relative standard error of a pixel's luminance below which `share` in \[0, 1\] of the pixels that are not
+    /// black lie.
     pub fn error_quantile(&self, share: f64) -> Option<f64> {
         let pair = |(error, pixel): (&[f32; 3], &[f32; 3])| {
             let [error, radiance] = [error, pixel].map(|pixel| luminance(pixel.map(f64::from).into()));

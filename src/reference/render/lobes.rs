@@ -10,9 +10,6 @@ use crate::models::{Bsdf, Ggx, Schlick};
 use crate::scene::{Layering, Lobes as Wanted, SheenModel};
 use crate::table::{Ltc, SheenTable};
 
-/// The cosine as a transformed one.
-pub(super) const COSINE: Ltc = Ltc { a: 1.0, b: 0.0, c: 1.0 };
-
 /// A lobe as it is seen from `wi`.
 pub(super) struct Lobe<'a> {
     /// By which its density, or its model, is multiplied.
@@ -126,7 +123,7 @@ impl<'a> Lobes<'a> {
             Some(model) => (at.color, Shape::Model(model)),
         };
         let is_near = matches!(at.model, SheenModel::Ltc | SheenModel::Slab | SheenModel::Walk);
-        self.add(Lobe { color, ltc: Ltc { a, b, c: a }, is_near, is_base: false, shape });
+        self.add(Lobe { color, ltc: Ltc::sheen(a, b), is_near, is_base: false, shape });
     }
 
     fn add_base(&mut self, surface: &Surface, models: &'a Models, wanted: Wanted, weight: f64) {
@@ -137,7 +134,7 @@ impl<'a> Lobes<'a> {
         let below = (1.0 - specular.albedo(&dielectric).max_element()).max(0.0);
         if wanted.diffuse {
             let color = weight * (1.0 - metallic) * below * base_color;
-            self.add(Lobe { color, ltc: COSINE, is_near: true, is_base: true, shape: Shape::Ltc });
+            self.add(Lobe { color, ltc: Ltc::COSINE, is_near: true, is_base: true, shape: Shape::Ltc });
         }
         if wanted.specular {
             let metal = f0.lerp(base_color, metallic).clamp(DVec3::ZERO, DVec3::ONE);

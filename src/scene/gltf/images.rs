@@ -36,8 +36,8 @@ pub struct Sources<'a> {
 pub struct Wanted {
     /// Index into the file's images.
     pub index: usize,
-    /// Whether a material reads colours in it, in sRGB: they are reduced as such. All else is plain numbers, normals
-    /// too, as shading makes unit what it looks up, and the fourth channel everywhere.
+    /// Whether any material reads it as sRGB colours: it is then halved in linear light. Everything else is averaged as
+    /// plain numbers: alpha always, and normals, which shading normalises.
     pub is_color: bool,
 }
 

@@ -30,7 +30,7 @@ impl Default for Transform {
 
 impl Transform {
     /// Scaled, then turned, then moved. The specification's words and its example turn (1, 0) towards (0, -1), upwards
-    /// in the image, as do all who draw it; its listing has the other sign (KhronosGroup/glTF issue 1563).
+    /// in the image, as all renderers do; the matrix that it prints has the other sign (KhronosGroup/glTF issue 1563).
     fn uv_from_tex_coord(&self) -> Affine2 {
         Affine2::from_scale_angle_translation(self.scale.into(), -self.rotation, self.offset.into())
     }

@@ -181,7 +181,7 @@ fn cameras_are_found_by_name_and_number() {
     scene.cameras.push(second);
     assert_eq!(scene.camera("framing").unwrap().name, "framing");
     assert_eq!(scene.camera("1").unwrap().name, "0");
-    // A name goes before a number.
+    // Names take precedence over numbers.
     assert_eq!(scene.camera("0").unwrap().name, "0");
     for missing in ["2", "-1", "", "Framing", "99999999999999999999"] {
         assert!(scene.camera(missing).is_none(), "{missing}");
