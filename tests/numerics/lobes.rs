@@ -116,7 +116,14 @@ pub fn message(wrong: &(dyn Fn() + std::panic::RefUnwindSafe)) -> String {
 /// Mistakes in calls of a model are told.
 pub fn assert_calls_are_checked(model: &(dyn Bsdf + std::panic::RefUnwindSafe)) {
     let up = direction(0.5, 0.0);
-    for wrong in [DVec3::NAN, DVec3::ZERO, up * 1.01, DVec3::new(f64::INFINITY, 0.0, 0.5)] {
+    // Squares of lengths may be 1e-5 off 1: half of that is let pass, twice that is not.
+    for near in [up * (1.0 + 2.5e-6), up * (1.0 - 2.5e-6)] {
+        model.evaluate(near, up);
+        model.pdf(up, near);
+        model.sample(near, [0.5; 2]);
+    }
+    let long = [1.0 + 1e-5, 1.0 - 1e-5, 1.01].map(|length| up * length);
+    for wrong in [DVec3::NAN, DVec3::ZERO, DVec3::new(f64::INFINITY, 0.0, 0.5)].into_iter().chain(long) {
         assert!(message(&|| _ = model.evaluate(wrong, up)).contains("a direction is unit"));
         assert!(message(&|| _ = model.pdf(up, wrong)).contains("a direction is unit"));
         assert!(message(&|| _ = model.sample(wrong, [0.5; 2])).contains("a direction is unit"));
