@@ -27,6 +27,17 @@ fn lights_that_are_not_visible_are_not_drawn_and_what_only_glows_is() {
 }
 
 #[test]
+fn a_channel_that_did_not_glow_may_be_lit_up() {
+    let mut scene = scene(grid(1, |_, _| true, |_, _| 0.0), Mat4::IDENTITY);
+    scene.materials[0].emission = Vec3::X;
+    lights::add_lights(&mut scene, 0, &mut Notices::default());
+    assert_eq!((scene.lights[0].radiance, scene.lights[0].texture_mean), (Vec3::X, Vec3::ONE));
+    scene.lights[0].radiance = Vec3::new(1.0, 2.0, 3.0);
+    let drawn = DrawnInstances::new(&scene, &Settings::default());
+    assert_eq!(drawn.emission(0), Vec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
 fn an_emitter_glows_as_its_light_and_other_things_as_their_material() {
     let mut scene = glowing();
     // The second light, of the third instance, as edited: half of its texture's red is seen, and nothing of its blue.

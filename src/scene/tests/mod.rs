@@ -7,4 +7,5 @@ mod settings;
 pub mod shapes;
 mod tangents;
 mod textures;
+mod tolerances;
 mod views;

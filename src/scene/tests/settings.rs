@@ -37,6 +37,19 @@ fn settings_give_every_material_a_sheen() {
 }
 
 #[test]
+fn what_is_given_stands_whatever_the_material_has_there() {
+    let fuzz = Sheen { weight: 0.5, ..Sheen::new(Vec3::X, 0.3) };
+    let material = Material { sheen: Some(fuzz), ..Material::matte("", Vec3::ONE) };
+    for (alpha, sheen_color) in [(None, None), (Some(0.7), None), (None, Some(Vec3::Y)), (Some(0.7), Some(Vec3::Y))] {
+        let overrides = Overrides { alpha, sheen_color, ..Overrides::default() };
+        let look = Settings { overrides, ..Settings::default() }.sheen_of(0, &material).unwrap();
+        // A given colour covers all of the surface; textures of what is given do not count.
+        assert_eq!(look.sheen.weight, if sheen_color.is_some() { 1.0 } else { 0.5 });
+        assert_eq!((look.color_is_textured, look.roughness_is_textured), (sheen_color.is_none(), alpha.is_none()));
+    }
+}
+
+#[test]
 fn a_materials_own_overrides_go_before_those_of_all() {
     let all = Overrides { alpha: Some(0.1), layering: Some(Layering::None), ..Overrides::default() };
     let one = Overrides { alpha: Some(0.9), ..Overrides::default() };

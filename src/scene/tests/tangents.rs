@@ -98,6 +98,18 @@ fn a_sphere_has_its_parallels_for_tangents() {
 }
 
 #[test]
+fn a_files_tangents_near_the_normal_are_taken_as_far_as_they_are_perpendicular() {
+    for (tangent, is_whole) in [(Vec3::new(0.01, 0.0, 1.0), true), (Vec3::Z, false), (Vec3::ZERO, false)] {
+        let mut mesh = square(1);
+        let own = [Vec4::X, tangent.extend(-1.0), Vec4::Y, Vec4::NEG_X];
+        assert_eq!(tangents::adopt(&mut mesh, &own), is_whole, "{tangent}");
+        let expected =
+            [Vec4::X.with_w(1.0), Vec4::new(1.0, 0.0, 0.0, -1.0), Vec4::Y.with_w(1.0), Vec4::NEG_X.with_w(1.0)];
+        assert_eq!(mesh.tangents, if is_whole { &expected[..] } else { &[] }, "{tangent}");
+    }
+}
+
+#[test]
 fn hubs_of_very_many_triangles_take_no_time_and_no_stack() {
     const RIM: u32 = 300_000;
     let mut mesh = Mesh { positions: vec![Vec3::ZERO], ..Mesh::default() };

@@ -2,11 +2,11 @@
 
 use std::f32::consts::PI;
 
-use glam::{Mat4, Quat, Vec3};
+use glam::{Affine2, Mat4, Quat, Vec3};
 
 use super::shapes::{cube, grid, scene, sphere};
 use crate::scene::notices::Notices;
-use crate::scene::{Camera, Light, Projection, Scene, framing, lights, rig};
+use crate::scene::{Camera, Light, Projection, Scene, TextureSlot, TextureUse, framing, lights, rig};
 
 /// A mesh in all kinds of sizes, with a camera and lights.
 fn sets() -> Vec<Scene> {
@@ -52,7 +52,8 @@ fn a_framed_subject_is_wholly_in_the_frame_and_fills_it() {
             let corners = scene.subject().corners().map(|corner| seen(camera, aspect, corner));
             for corner in corners {
                 assert!(corner.x.abs() < 1.0 && corner.y.abs() < 1.0, "{corner} {:?}", scene.subject());
-                assert!(near < corner.z && corner.z < far);
+                // With room to come nearer.
+                assert!(near < 0.05 * corner.z && corner.z < far);
             }
             let reach = corners.iter().map(|corner| corner.x.abs().max(corner.y.abs())).fold(0.0, f32::max);
             assert!(reach > 0.8 / aspect, "{reach} {:?}", scene.subject());
@@ -82,6 +83,12 @@ fn what_glows_is_no_subject() {
     let two = added(two);
     assert_eq!(two.lights.len(), 2);
     assert_eq!(two.notices, ["no camera in the file: the whole scene is framed"]);
+    // Of a textured thing only a part may glow: it is to be seen.
+    let mut textured = two.clone();
+    let texture = TextureUse { texture: 0, tex_coord: 0, uv_from_tex_coord: Affine2::IDENTITY };
+    textured.materials[1].textures[TextureSlot::Emission as usize] = Some(texture);
+    textured.materials[0].emission = Vec3::ZERO;
+    assert_eq!(textured.subject(), textured.bounds());
     let Projection::Perspective { far, .. } = two.cameras[0].projection else { panic!("{:?}", two.cameras[0]) };
     assert!(two.bounds().corners().into_iter().all(|corner| seen(&two.cameras[0], 1.0, corner).z < far));
 }
@@ -123,6 +130,8 @@ fn the_rig_leaves_the_frames_of_the_files_cameras() {
         Projection::Perspective { yfov: 0.3, near: 0.1, far: 1000.0 },
         Projection::Perspective { yfov: 1.5, near: 0.1, far: 1000.0 },
         Projection::Orthographic { ymag: 1.5, near: 0.1, far: 1000.0 },
+        // Where the fill light would be between the edges of a square picture and of a wide one.
+        Projection::Orthographic { ymag: 4.0, near: 0.1, far: 1000.0 },
         Projection::Orthographic { ymag: 12.0, near: 0.1, far: 1000.0 },
     ];
     for projection in projections {
@@ -133,6 +142,34 @@ fn the_rig_leaves_the_frames_of_the_files_cameras() {
             scene.cameras.push(Camera { name: String::new(), world_from_camera, projection });
             out_of_frame(&added(scene));
         }
+    }
+}
+
+#[test]
+fn the_rig_is_no_farther_than_it_must_be() {
+    // The rim light is in the frame up to twice the rig's first size. At four times it is not, and the key light, which still
+    // is in it, is behind a near camera, and shows a far one its back.
+    let projection = Projection::Orthographic { ymag: 12.0, near: 0.1, far: 1000.0 };
+    for distance in [4.0, 60.0] {
+        let mut scene = scene(cube(), Mat4::IDENTITY);
+        let world_from_camera = Mat4::from_translation(Vec3::new(0.0, 0.0, distance));
+        scene.cameras.push(Camera { name: String::new(), world_from_camera, projection });
+        let scene = added(scene);
+        for light in &scene.lights {
+            let size = light.position().length() / (3.5 * 3.0f32.sqrt());
+            assert!((size - 4.0).abs() < 1e-3, "{distance}: {} {size}", light.name);
+        }
+    }
+}
+
+#[test]
+fn what_is_next_to_nothing_is_seen_from_without() {
+    let place = Mat4::from_scale_rotation_translation(Vec3::splat(1e-9), Quat::IDENTITY, Vec3::new(300.0, 0.0, 0.0));
+    let scene = added(scene(cube(), place));
+    let eye = scene.cameras[0].world_from_camera.w_axis.truncate();
+    assert!(eye.distance(scene.subject().center()) > 1e-4, "{eye}");
+    for light in &scene.lights {
+        assert!(light.position().distance(scene.subject().center()) > 1e-4 && light.position().is_finite());
     }
 }
 

@@ -37,6 +37,14 @@ fn a_skin_in_its_bind_pose_is_where_its_joints_put_it() {
 }
 
 #[test]
+fn joints_may_be_off_their_pose_by_rounding_and_no_more() {
+    for (off, said) in [(2e-5, 0), (2e-3, 1)] {
+        let bound = [Vec3::X, Vec3::new(off, 2.0, 0.0)].map(|joint| Mat4::from_translation(-joint));
+        assert_eq!(skinned(bound).read().notices.len(), said, "{off}");
+    }
+}
+
+#[test]
 fn bad_skins() {
     for (pointer, value, what) in [
         ("/accessors/5/count", json!(1), "skin 0: has 2 joints and fewer inverseBindMatrices"),

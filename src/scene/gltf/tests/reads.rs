@@ -70,6 +70,27 @@ fn cameras_keep_no_scale_and_no_mirroring() {
 }
 
 #[test]
+fn cameras_keep_no_shear() {
+    let mut file = Builder::square();
+    file.push("cameras", json!({ "type": "perspective", "perspective": { "yfov": 0.5, "znear": 0.1 } }));
+    // Its y leans by half towards its back.
+    file.push("nodes", json!({ "camera": 0, "matrix": [1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1, 0, 0, 0, 4, 1] }));
+    let world_from_camera = file.read().cameras[0].world_from_camera;
+    assert!(world_from_camera.abs_diff_eq(Mat4::from_translation(4.0 * Vec3::Z), 1e-6), "{world_from_camera}");
+}
+
+#[test]
+fn thin_and_sheared_things_are_drawn_and_rotations_do_not_scale() {
+    let mut file = Builder::square();
+    // Its y leans so far over that its axes span a thousandth of a cube.
+    file.json["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+    file.push("nodes", json!({ "mesh": 0, "rotation": [0, 0, 0, 1.005] }));
+    let scene = file.read();
+    let drawn: Vec<Mat4> = scene.instances.iter().map(|instance| instance.world_from_mesh).take(2).collect();
+    assert_eq!((drawn[0].y_axis.y, drawn[1]), (1e-3, Mat4::IDENTITY));
+}
+
+#[test]
 fn cameras_come_in_the_order_of_the_files_list() {
     let mut file = Builder::square();
     for name in ["left", "right"] {
