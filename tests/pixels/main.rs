@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod base;
+mod borders;
 mod command;
 mod compare;
 mod comparison;

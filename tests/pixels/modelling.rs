@@ -79,9 +79,9 @@ fn the_fit_is_as_far_from_the_slab_as_is_said() {
 
 /// What the rules `gltf`, `reciprocal` and `none` change of a picture's total light over a base, at each of three alphas.
 const RULES: [(&str, [[f64; 3]; 3]); 3] = [
-    ("grey 0.5, diffuse", [[0.015, 0.064, 0.127], [-0.006, -0.006, 0.081], [0.04, 0.20, 0.48]]),
-    ("white 0.9, diffuse", [[0.006, 0.023, 0.051], [-0.015, -0.051, -0.009], [0.03, 0.16, 0.51]]),
-    ("metal 0.9, roughness 0.5", [[0.069, 0.037, 0.028], [0.062, 0.001, -0.004], [0.08, 0.12, 0.42]]),
+    ("grey 0.5, diffuse", [[0.014, 0.064, 0.129], [-0.006, -0.006, 0.083], [0.04, 0.20, 0.49]]),
+    ("white 0.9, diffuse", [[0.005, 0.023, 0.053], [-0.015, -0.051, -0.007], [0.03, 0.16, 0.51]]),
+    ("metal 0.9, roughness 0.5", [[0.070, 0.035, 0.029], [0.063, 0.000, -0.004], [0.08, 0.12, 0.42]]),
 ];
 
 /// A row of the table on the page; the last rule's figures are whole per cents.
@@ -99,6 +99,7 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
     let white = Material { base_color: Vec3::splat(0.9), ..plain() };
     let metal = Material { metallic: 1.0, roughness: 0.5, base_color: Vec3::splat(0.9), ..plain() };
     let page = include_str!("../../docs/accuracy.md");
+    let mut wrong = Vec::new();
     for ((name, said), base) in RULES.iter().zip([grey, white, metal]) {
         let row = row(name, said);
         assert!(page.contains(&row), "docs/accuracy.md does not say '{row}'");
@@ -117,9 +118,12 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
             // Half of the last digit that is quoted, and as much again for sines that differ between machines.
             for ((found, said), allowed) in [gltf, reciprocal, none].into_iter().zip(said).zip([1e-3, 1e-3, 1e-2]) {
                 let said = said[column];
-                assert!((found - said).abs() < allowed, "{name}, alpha {alpha}: {found} is not {said}");
+                if (found - said).abs() > allowed {
+                    wrong.push(format!("{name}, alpha {alpha}: {found:+.4} is not {said}"));
+                }
             }
             assert!(reciprocal < none && gltf < none, "{name}, alpha {alpha}: {gltf} {reciprocal} {none}");
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -4,8 +4,8 @@ use glam::{Affine2, Vec2, Vec3, Vec4};
 use velour::picture::LinearImage;
 use velour::renderer::Offscreen;
 use velour::scene::{
-    AlphaMode, Image, Lobes, Material, Sampler, Scene, Settings, Sheen, Texture, TextureSlot, TextureUse,
-    linear_from_srgb,
+    AlphaMode, Image, Layering, Lobes, Material, Overrides, PunctualKind, PunctualLight, Sampler, Scene, Settings,
+    Sheen, Texture, TextureSlot, TextureUse, linear_from_srgb,
 };
 use velour::table::SheenTable;
 
@@ -98,6 +98,23 @@ fn one_texel_is_a_factor_in_the_right_channel_and_encoding() {
             assert!(difference(&found, &picture(&floor(base.clone()))) > 5e-3, "{slot:?} makes no difference");
         }
     }
+}
+
+/// OpenPBR's rule looks at the weight alone: it is the texture's too.
+#[test]
+fn a_textured_weight_hides_as_much_of_the_base_as_a_factor() {
+    let overrides = Overrides { layering: Some(Layering::OpenPbr), ..Overrides::default() };
+    let lobes = Lobes { sheen: false, diffuse: true, specular: false, emission: false };
+    let settings = Settings { lobes, overrides, lights_visible: false, ..Settings::default() };
+    let base = |scene: &Scene| linear(scene, &SheenTable::embedded(), &settings, SIZE);
+    let of_weight = |weight: f32| {
+        let sheen = rich().sheen.map(|sheen| Sheen { weight, ..sheen });
+        floor(Material { sheen, ..rich() })
+    };
+    let mut scene = of_weight(0.8);
+    textured(&mut scene, TextureSlot::SheenWeight, [1, 1], vec![[51, 255, 255, 255]]);
+    assert!(difference(&base(&scene), &base(&of_weight(0.8 * 0.2))) < 1e-5);
+    assert!(difference(&base(&scene), &base(&of_weight(0.8))) > 0.05, "the weight makes no difference");
 }
 
 #[test]
@@ -306,6 +323,28 @@ fn light_from_below_the_surface_reaches_no_mapped_normal() {
 }
 
 #[test]
+fn lights_without_extent_below_the_surface_reach_no_mapped_normal() {
+    let lit_from = |y: f32| {
+        let mut scene = floor(rich());
+        textured(&mut scene, TextureSlot::Normal, [1, 1], vec![[128, 36, 200, 255]]);
+        // The window goes dark.
+        scene.lights.clear();
+        scene.materials[1].emission = Vec3::ZERO;
+        scene.punctual_lights.push(PunctualLight {
+            name: String::new(),
+            kind: PunctualKind::Point { range: f32::INFINITY },
+            intensity: Vec3::ONE,
+            position: Vec3::new(0.0, y, -3.0),
+            direction: Vec3::NEG_Y,
+        });
+        let settings = Settings { lights_visible: false, ..Settings::default() };
+        linear(&scene, &SheenTable::embedded(), &settings, SIZE).pixels.into_iter().flatten().fold(0.0, f32::max)
+    };
+    assert!(lit_from(0.3) > 0.01, "the normal leans towards the light");
+    assert_eq!(lit_from(-0.1), 0.0);
+}
+
+#[test]
 fn what_is_masked_is_not_there_and_what_is_blended_shows_what_is_behind() {
     let curtain = |alpha_mode, opacity: f32| {
         let floor = Thing::rectangle([1.5, 1.5], plain()).placed(facing(ORIGIN, UP));
@@ -322,6 +361,7 @@ fn what_is_masked_is_not_there_and_what_is_blended_shows_what_is_behind() {
     let solid = curtain(AlphaMode::Mask { cutoff: 0.5 }, 0.6);
     assert!(solid.pixels.iter().all(|pixel| *pixel == [1.0, 0.0, 0.0]), "unlit, and not masked");
     assert_eq!(curtain(AlphaMode::Opaque, 0.3), solid);
+    assert_eq!(curtain(AlphaMode::Mask { cutoff: 0.5 }, 0.5), solid, "what is as opaque as the cutoff is there");
     let blended = curtain(AlphaMode::Blend, 0.25);
     for (blended, bare) in blended.pixels.iter().zip(&bare.pixels) {
         let expected = Vec3::new(0.25, 0.75 * 0.25, 0.0) + 0.75 * 0.75 * Vec3::from(*bare);

@@ -2,6 +2,7 @@
 
 mod device;
 mod files;
+mod filters;
 mod form_factor;
 mod ggx;
 mod millions;
