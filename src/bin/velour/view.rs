@@ -53,17 +53,14 @@ pub fn run_or_render_default() -> Result<(), Failure> {
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SIZE: [u32; 2] = [1280, 720];
     check_writable(output).map_err(Failure::input)?;
-    let (camera, settings) = (&scene.cameras[0], Settings::default());
+    let settings = Settings::default();
     let picture = match pollster::block_on(device::open_offscreen(None)) {
         Err(DeviceError::NoAdapter) => {
             without_device::plain(scene, &settings, SIZE)?.display(settings.exposure, Default::default())
         }
         gpu => {
             let gpu = gpu.map_err(Failure::device)?;
-            let renderer = Offscreen::for_display(&gpu, 4, &SheenTable::embedded(), scene, &settings);
-            let mut renderer = renderer.map_err(render::failure)?;
-            let picture = gpu.block_on(renderer.display(&gpu, camera, SIZE, &settings, Default::default()));
-            picture.map_err(render::failure)?
+            gpu.block_on(Offscreen::screenshot(&gpu, scene, &settings, SIZE)).map_err(render::failure)?
         }
     };
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
