@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 /// The inverse matrix (a, 0, b), (0, c, 0), (0, 0, 1), by rows. The diffuse lobe's is the identity, the sheen's has c = a.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ltc {
-    /// Scale along x, > 0.
+    /// Scale along x, >= 0; the lobe of a = 0, which tables may hold, is none.
     pub a: f64,
     /// Shear along x, of either sign.
     pub b: f64,
-    /// Scale along y, > 0.
+    /// Scale along y, >= 0.
     pub c: f64,
 }
 
