@@ -89,14 +89,19 @@ struct MaterialSurface {
 // A uniform, because texture filtering takes derivatives, and helper invocations may read zeros from storage.
 @group(1) @binding(20) var<uniform> material_transforms: MaterialTransforms;
 
+// The sheen's alpha for the user's roughness, both in [0, 1]: scene::RoughnessMap::alpha_from_roughness.
+fn material_alpha_from_roughness(roughness: f32, exponent: f32) -> f32 {
+    return pow(roughness, exponent);
+}
+
 // Without textures and vertex colours.
 fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurface {
     let factors = &material_factors[material];
     return MaterialSurface(
         (*factors).base_color.rgb, (*factors).base_color.a, (*factors).metallic, (*factors).roughness, (*factors).f0,
         (*factors).specular, (*factors).sheen_color * (*factors).sheen_weight, (*factors).sheen_weight,
-        pow((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, 1.0, (*factors).alpha_cutoff,
-        (*factors).layering, (*factors).manual,
+        material_alpha_from_roughness((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, 1.0,
+        (*factors).alpha_cutoff, (*factors).layering, (*factors).manual,
     );
 }
 
@@ -164,7 +169,7 @@ fn material_textured(
         let uv = material_uv(MATERIAL_SHEEN_ROUGHNESS, tex_coords);
         let texel = textureSample(material_sheen_roughness, material_sheen_roughness_sampler, uv);
         let factors = &material_factors[material];
-        surface.sheen_alpha = pow((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
+        surface.sheen_alpha = material_alpha_from_roughness((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
     }
     if material_has(MATERIAL_SHEEN_WEIGHT) {
         let uv = material_uv(MATERIAL_SHEEN_WEIGHT, tex_coords);

@@ -11,6 +11,18 @@ pub enum ToneCurve {
 }
 
 impl ToneCurve {
+    /// Each with the name that flags and files give it.
+    pub const NAMES: [(&'static str, Self); 3] = [("none", Self::None), ("neutral", Self::Neutral), ("agx", Self::Agx)];
+
+    /// The name that flags and files give it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Neutral => "neutral",
+            Self::Agx => "agx",
+        }
+    }
+
     /// Takes linear Rec. 709 in [0, infinity) to linear Rec. 709 in [0, 1].
     pub fn apply(self, color: [f32; 3]) -> [f32; 3] {
         match self {

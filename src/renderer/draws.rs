@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::lights::LightKinds;
 use super::materials::Look;
-use crate::scene::{Bounds, DrawnInstances, Instance, Mesh, Scene, Settings};
+use crate::scene::{Bounds, Drawn, Instance, Mesh, Scene};
 
 /// `SurfacesInstance` of `surfaces.wgsl`.
 #[repr(C)]
@@ -78,25 +78,24 @@ pub(super) struct Draws {
 
 impl Draws {
     /// `mesh_bounds` are the bounds of the scene's meshes, `kinds` the kinds of its lights.
-    pub fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
-        let drawn = DrawnInstances::new(scene, settings);
+    pub fn new(drawn: &Drawn, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
+        let scene = drawn.scene;
         let is_hidden = |index: usize| !drawn.is_drawn(index);
-        let looks = scene.materials.iter().enumerate().map(|(index, material)| Look::new(index, material, settings));
-        let looks: Vec<Look> = looks.collect();
+        let looks: Vec<Look> = drawn.materials.iter().map(Look::new).collect();
         let variant = |instance: &Instance| {
             let mesh = &scene.meshes[instance.mesh];
             Variant::new(looks[mesh.material], mesh, kinds, instance.mirrors())
         };
-        let variants: Vec<Variant> = scene.instances.iter().map(variant).collect();
+        let variants: Vec<Variant> = drawn.instances.iter().map(variant).collect();
         let key = |&index: &usize| {
-            (is_hidden(index), variants[index].look.blend, variants[index], scene.instances[index].mesh)
+            (is_hidden(index), variants[index].look.blend, variants[index], drawn.instances[index].mesh)
         };
-        let mut order: Vec<usize> = (0..scene.instances.len()).collect();
+        let mut order: Vec<usize> = (0..drawn.instances.len()).collect();
         // Stable: instances that are drawn alike stay in the file's order.
         order.sort_by_key(key);
         let mut draws = Self::default();
         for index in order {
-            let instance = &scene.instances[index];
+            let instance = &drawn.instances[index];
             let at = draws.instances.len() as u32;
             draws.instances.push(gpu_instance(scene, instance, drawn.emission(index), variants[index].mirrored));
             draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3, Vec4};
 
 use crate::math::quadrature::gauss_legendre;
-use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
+use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 
 /// `PolygonsLight` of `polygons.wgsl`.
 #[repr(C)]
@@ -83,12 +83,12 @@ pub(super) struct GpuLights {
 }
 
 impl GpuLights {
-    /// The lights of `scene`; with points on them where `sampled`.
-    pub fn new(scene: &Scene, sampled: bool) -> Self {
+    /// The lights of a scene; with points on them where `sampled`.
+    pub fn new(drawn: &Drawn, sampled: bool) -> Self {
         let (mut polygons, mut vertices, mut points) = (Vec::new(), Vec::new(), Vec::new());
         let mut add = |quads: bool| {
             // Black lights contribute nothing and are left out.
-            for light in scene.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
+            for light in drawn.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
                 for polygon in light.polygons.iter().filter(|polygon| is_quad(polygon) == quads) {
                     let first_point = points.len() as u32;
                     if sampled {
@@ -101,7 +101,7 @@ impl GpuLights {
             polygons.len() as u32
         };
         let (quads, all) = (add(true), add(false));
-        let punctual: Vec<GpuPunctual> = scene.punctual_lights.iter().map(one_punctual).collect();
+        let punctual: Vec<GpuPunctual> = drawn.scene.punctual_lights.iter().map(one_punctual).collect();
         let counts = GpuCounts { quads, polygons: all, punctual: punctual.len() as u32 };
         Self { counts, polygons, vertices, punctual, points }
     }

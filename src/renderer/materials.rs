@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine2, Vec3, Vec4};
 
-use crate::scene::{AlphaMode, Layering, Material, Settings, SheenModel, TextureSlot};
+use crate::scene::{AlphaMode, Layering, Material, SheenModel, TextureSlot};
 
 /// `MaterialFactors` of `material.wgsl`.
 #[repr(C)]
@@ -44,16 +44,14 @@ pub(super) struct Look {
 }
 
 impl Look {
-    pub fn new(index: usize, material: &Material, settings: &Settings) -> Self {
-        let sheen = settings.sheen_of(index, material);
+    /// What a material as it is drawn needs.
+    pub fn new(material: &Material) -> Self {
+        let sheen = material.sheen;
         let metallic = material.metallic > 0.0;
         let counts = |slot: TextureSlot| {
             material.texture(slot).is_some()
                 && match slot {
-                    TextureSlot::SheenColor | TextureSlot::SheenWeight => {
-                        sheen.is_some_and(|look| look.color_is_textured)
-                    }
-                    TextureSlot::SheenRoughness => sheen.is_some_and(|look| look.roughness_is_textured),
+                    TextureSlot::SheenColor | TextureSlot::SheenWeight | TextureSlot::SheenRoughness => sheen.is_some(),
                     TextureSlot::BaseColor => true,
                     TextureSlot::Emission => material.emission != Vec3::ZERO,
                     _ => !material.unlit,
@@ -62,10 +60,10 @@ impl Look {
         let textures = TextureSlot::ALL.into_iter().filter(|slot| counts(*slot));
         Self {
             sheen: sheen.is_some() && !material.unlit,
-            sheen_model: sheen.filter(|_| !material.unlit).map_or(0, |look| model_number(look.model)),
+            sheen_model: sheen.filter(|_| !material.unlit).map_or(0, |sheen| model_number(sheen.model)),
             specular: (metallic || material.dielectric_f0() != Vec3::ZERO || material.specular > 0.0)
                 && !material.unlit,
-            reciprocal: sheen.is_some() && settings.layering_of(index) == Layering::Reciprocal,
+            reciprocal: sheen.is_some_and(|sheen| sheen.layering == Layering::Reciprocal),
             unlit: material.unlit,
             mask: matches!(material.alpha_mode, AlphaMode::Mask { .. }),
             blend: material.alpha_mode == AlphaMode::Blend,
@@ -87,10 +85,10 @@ fn model_number(model: SheenModel) -> u32 {
     }
 }
 
-pub(super) fn factors(index: usize, material: &Material, settings: &Settings) -> GpuMaterial {
-    let look = settings.sheen_of(index, material);
-    let sheen = look.map(|look| look.sheen);
-    let (layering, manual) = match settings.layering_of(index) {
+/// The factors of a material as it is drawn.
+pub(super) fn factors(material: &Material) -> GpuMaterial {
+    let sheen = material.sheen;
+    let (layering, manual) = match sheen.map(|sheen| sheen.layering).unwrap_or_default() {
         Layering::Gltf => (0, 1.0),
         Layering::OpenPbr => (1, 1.0),
         Layering::Reciprocal => (2, 1.0),
@@ -107,7 +105,7 @@ pub(super) fn factors(index: usize, material: &Material, settings: &Settings) ->
         metallic: material.metallic,
         roughness: material.roughness,
         sheen_roughness: sheen.map_or(0.0, |sheen| sheen.roughness),
-        alpha_exponent: look.map_or(1.0, |look| look.roughness_map.exponent()),
+        alpha_exponent: sheen.map_or(1.0, |sheen| sheen.roughness_map.exponent()),
         // With larger scales the normal is in the surface's plane anyway, and its square would overflow.
         normal_scale: material.normal_scale.clamp(-1e6, 1e6),
         occlusion_strength: material.occlusion_strength,

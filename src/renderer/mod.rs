@@ -33,7 +33,7 @@ use resident::Resident;
 use surfaces::SurfacesPass;
 use targets::Targets;
 
-use crate::scene::{Scene, Settings};
+use crate::scene::{Drawn, Settings};
 use crate::table::SheenTable;
 
 /// Why a picture could not be made.
@@ -96,22 +96,16 @@ pub struct Renderer {
 
 impl Renderer {
     /// Uploads the scene and makes the pipelines. Drivers may put off compiling them until the first frame.
-    pub fn new(
-        gpu: &Gpu,
-        format: Format,
-        table: &SheenTable,
-        scene: &Scene,
-        settings: &Settings,
-    ) -> Result<Self, RenderError> {
-        let resident = Resident::new(gpu, scene, settings)?;
+    pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
+        let resident = Resident::new(gpu, drawn)?;
         let surfaces = SurfacesPass::new(gpu, format.radiance, table, &resident);
         let display = DisplayPass::new(&gpu.device, format.radiance, format.output, format.measured);
         Ok(Self { format, resident, surfaces, display, targets: None })
     }
 
-    /// Sends changed materials, lights, places and settings of the same scene to the device.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
-        if self.resident.update(gpu, scene, settings)? {
+    /// Sends what other edits make of the same scene to the device: materials, lights and places.
+    pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
+        if self.resident.update(gpu, drawn)? {
             self.surfaces.rebind(&gpu.device, &self.resident);
         }
         self.surfaces.prepare(gpu, &self.resident);

@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex};
 use std::task::{Poll, Waker};
 
 use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
-use crate::picture::{DisplayImage, LinearImage, ToneCurve};
-use crate::scene::{Camera, Scene, Settings};
+use crate::picture::{DisplayImage, LinearImage};
+use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 use crate::table::SheenTable;
 
 /// Longest side of a tile: pictures up to this size are drawn in one piece.
@@ -20,64 +20,51 @@ pub struct Offscreen {
 impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
     /// or where the scene does not fit on the device.
-    pub fn for_display(
-        gpu: &Gpu,
-        samples: u32,
-        table: &SheenTable,
-        scene: &Scene,
-        settings: &Settings,
-    ) -> Result<Self, RenderError> {
+    pub fn for_display(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
         let cannot = || cannot_draw("floats", samples);
         let radiance = RadianceFormat::display(&gpu.adapter, samples).ok_or_else(cannot)?;
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
     }
 
     /// For linear pictures (`linear`), with 1 or 4 samples per pixel. Fails as `for_display` does.
-    pub fn for_linear(
-        gpu: &Gpu,
-        samples: u32,
-        table: &SheenTable,
-        scene: &Scene,
-        settings: &Settings,
-    ) -> Result<Self, RenderError> {
+    pub fn for_linear(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
         let cannot = || cannot_draw("32-bit floats", samples);
         let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or_else(cannot)?;
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
     }
 
-    /// The picture that `velour render` makes of a scene without any flag but `--size`: through its first camera, with 4 samples a pixel,
-    /// the shipped table and the default tone curve. In one call, for tests that compare it with a picture that is kept; whoever
+    /// The picture that `velour render` makes of a scene with the flags that make these edits: through their camera, else the scene's
+    /// first, with 4 samples a pixel and the shipped table. In one call, for tests that compare it with a picture that is kept; whoever
     /// draws a scene more than once keeps an `Offscreen`. Panics where the scene has no camera; a scene that was loaded has one.
     pub async fn screenshot(
         gpu: &Gpu,
         scene: &Scene,
-        settings: &Settings,
+        edits: &Edits,
         size: [u32; 2],
     ) -> Result<DisplayImage, RenderError> {
-        let mut renderer = Self::for_display(gpu, 4, &SheenTable::embedded(), scene, settings)?;
-        renderer.display(gpu, &scene.cameras[0], size, settings, ToneCurve::default()).await
+        let drawn = Drawn::new(scene, edits);
+        let mut renderer = Self::for_display(gpu, 4, &SheenTable::embedded(), &drawn)?;
+        renderer.display(gpu, &edits.camera(scene), size, &drawn.settings).await
     }
 
-    /// Sends changed materials, lights, places and settings of the same scene to the device; its meshes and textures
-    /// stay as they were.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<(), RenderError> {
-        self.renderer.update(gpu, scene, settings)
+    /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
+    pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
+        self.renderer.update(gpu, drawn)
     }
 
-    /// The picture as it is shown. Of the settings, only lobes, ambient light and exposure are read here; the others
-    /// took effect when this was made or updated. Panics unless this was made by `for_display`.
+    /// The picture as it is shown. Of the settings, `lights_visible` took effect when this was made or updated; the
+    /// others are read here. Panics unless this was made by `for_display`.
     pub async fn display(
         &mut self,
         gpu: &Gpu,
         camera: &Camera,
         size: [u32; 2],
         settings: &Settings,
-        tone: ToneCurve,
     ) -> Result<DisplayImage, RenderError> {
         assert!(!self.format.measured, "a renderer for linear pictures was asked for a shown one");
-        let showing = Showing::Shown { exposure: settings.exposure, tone };
+        let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
         let pixels = self.pixels(gpu, camera, size, settings, showing, |texel: [u8; 4]| [texel[0], texel[1], texel[2]]);
         Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
     }

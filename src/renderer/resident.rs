@@ -11,7 +11,7 @@ use super::draws::{Batch, Draws};
 use super::lights::GpuLights;
 use super::materials::{GpuMaterial, Look, factors};
 use super::{Gpu, RenderError, textures};
-use crate::scene::{Bounds, Mesh, Scene, Settings};
+use crate::scene::{Bounds, Drawn, Mesh};
 
 /// A mesh's vertices, one buffer per attribute, so that no mesh pays for attributes that it lacks.
 pub(super) struct MeshBuffers {
@@ -44,10 +44,11 @@ pub(super) struct Resident {
 }
 
 impl Resident {
-    pub fn new(gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<Self, RenderError> {
+    pub fn new(gpu: &Gpu, drawn: &Drawn) -> Result<Self, RenderError> {
+        let scene = drawn.scene;
         let Gpu { device, queue, .. } = gpu;
         let mesh_bounds: Vec<Bounds> = scene.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
-        let contents = Contents::new(scene, settings, &mesh_bounds);
+        let contents = Contents::new(drawn, &mesh_bounds);
         let limit = device.limits().max_storage_buffer_binding_size;
         let storage = |(label, bytes): (&'static str, &[u8])| {
             buffer(device, label, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST, limit)
@@ -76,8 +77,8 @@ impl Resident {
 
     /// Uploads the present values of materials, lights and instances. Returns whether buffers were made anew, which
     /// happens where their contents have grown. Meshes and textures stay as they are.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, settings: &Settings) -> Result<bool, RenderError> {
-        let contents = Contents::new(scene, settings, &self.mesh_bounds);
+    pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
+        let contents = Contents::new(drawn, &self.mesh_bounds);
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         gpu.queue.write_buffer(&self.counts, 0, bytemuck::bytes_of(&contents.lights.counts));
         let mut grown = false;
@@ -117,13 +118,12 @@ struct Contents {
 }
 
 impl Contents {
-    fn new(scene: &Scene, settings: &Settings, mesh_bounds: &[Bounds]) -> Self {
-        let materials = || scene.materials.iter().enumerate();
-        let sampled = materials().any(|(index, material)| Look::new(index, material, settings).sheen_model != 0);
-        let lights = GpuLights::new(scene, sampled);
+    fn new(drawn: &Drawn, mesh_bounds: &[Bounds]) -> Self {
+        let sampled = drawn.materials.iter().any(|material| Look::new(material).sheen_model != 0);
+        let lights = GpuLights::new(drawn, sampled);
         Self {
-            draws: Draws::new(scene, settings, mesh_bounds, lights.counts.kinds()),
-            materials: materials().map(|(index, material)| factors(index, material, settings)).collect(),
+            draws: Draws::new(drawn, mesh_bounds, lights.counts.kinds()),
+            materials: drawn.materials.iter().map(factors).collect(),
             lights,
         }
     }

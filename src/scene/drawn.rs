@@ -1,40 +1,134 @@
-//! Which of a scene's instances are drawn, and what each of them emits.
+//! The scene as it is drawn: a function of the scene as loaded and of what a user changes.
+
+use std::borrow::Cow;
 
 use glam::Vec3;
 
-use super::{Light, Scene, Settings};
+use super::{
+    Edits, Instance, Layering, Light, Material, MaterialEdits, RoughnessMap, Scene, Settings, Sheen, TextureSlot,
+};
 
-/// A scene's instances as settings draw them. Emitters and lights belong together: an emitter is hidden with the
-/// lights, and its surface glows as its light says, whatever has become of that light since the scene was loaded.
-pub struct DrawnInstances<'a> {
-    scene: &'a Scene,
-    /// By instance.
-    lights: Vec<Option<&'a Light>>,
-    lights_visible: bool,
+/// A scene as edits draw it. Meshes, textures, lights without extent and cameras are those of the scene as loaded.
+///
+/// Emitters and lights belong together: an emitter is hidden with the lights, moves with its light, and glows as its
+/// light says, whatever has become of that since the scene was loaded.
+#[derive(Clone, Debug)]
+pub struct Drawn<'a> {
+    /// As loaded.
+    pub scene: &'a Scene,
+    /// Instead of `Scene::materials`. What an edit has replaced has no texture any more; a sheen that nobody could see
+    /// is left out.
+    pub materials: Vec<Material>,
+    /// Instead of `Scene::lights`.
+    pub lights: Vec<Light>,
+    /// Instead of `Scene::instances`.
+    pub instances: Cow<'a, [Instance]>,
+    /// What is no part of the scene.
+    pub settings: Settings,
+    /// By instance, the index of the light that it is the emitter of.
+    light_of: Vec<Option<usize>>,
 }
 
-impl<'a> DrawnInstances<'a> {
-    /// What `settings` draw of `scene`.
-    pub fn new(scene: &'a Scene, settings: &Settings) -> Self {
-        let mut lights = vec![None; scene.instances.len()];
-        scene.lights.iter().for_each(|light| lights[light.instance] = Some(light));
-        Self { scene, lights, lights_visible: settings.lights_visible }
+/// The roughness of a sheen of which only the colour is given.
+const ROUGHNESS: f32 = 0.5;
+
+impl<'a> Drawn<'a> {
+    /// What `edits` make of `scene`. Panics where they name what the scene does not have.
+    pub fn new(scene: &'a Scene, edits: &Edits) -> Self {
+        let mut light_of = vec![None; scene.instances.len()];
+        scene.lights.iter().enumerate().for_each(|(index, light)| light_of[light.instance] = Some(index));
+        let mut drawn = Self {
+            scene,
+            materials: materials(scene, edits),
+            lights: scene.lights.clone(),
+            instances: Cow::Borrowed(&scene.instances),
+            settings: edits.settings(),
+            light_of,
+        };
+        edits.lights.keys().for_each(|&index| drawn.edit_light(index, edits));
+        drawn
     }
 
     /// The light whose emitter the instance of this index is, if there is one.
-    pub fn light(&self, instance: usize) -> Option<&'a Light> {
-        self.lights[instance]
+    pub fn light(&self, instance: usize) -> Option<&Light> {
+        self.light_of[instance].map(|index| &self.lights[index])
     }
 
     /// Whether the instance of this index is drawn: all are, but lights' emitters where lights are not visible.
     pub fn is_drawn(&self, instance: usize) -> bool {
-        self.lights_visible || self.light(instance).is_none()
+        self.settings.lights_visible || self.light_of[instance].is_none()
     }
 
     /// The radiance that the surface of the instance of this index emits where its emissive texture is white: its
     /// light's, else its material's. Linear Rec. 709, >= 0.
     pub fn emission(&self, instance: usize) -> Vec3 {
-        let material = self.scene.meshes[self.scene.instances[instance].mesh].material;
-        self.light(instance).map_or(self.scene.materials[material].emission, Light::emission)
+        let material = self.scene.meshes[self.instances[instance].mesh].material;
+        self.light(instance).map_or(self.materials[material].emission, Light::emission)
     }
+
+    /// Changes a light, and moves the emitter that is drawn for it along.
+    fn edit_light(&mut self, index: usize, edits: &Edits) {
+        let (edits, light) = (edits.of_light(index), &mut self.lights[index]);
+        light.radiance = edits.radiance(light.radiance);
+        let offset = edits.position.map_or(Vec3::ZERO, |position| position - light.position());
+        if offset != Vec3::ZERO {
+            let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
+            outlines.flatten().for_each(|vertex| *vertex += offset);
+            self.instances.to_mut()[light.instance].world_from_mesh.w_axis += offset.extend(0.0);
+        }
+    }
+}
+
+/// A material's own sheen, as long as it can be seen: of a weight, and not black.
+fn visible(material: &Material) -> Option<Sheen> {
+    material.sheen.filter(|sheen| sheen.weight > 0.0 && sheen.color != Vec3::ZERO)
+}
+
+fn materials(scene: &Scene, edits: &Edits) -> Vec<Material> {
+    let own = |index: usize| edits.materials.get(&index).copied().unwrap_or_default();
+    let has_sheen = |index: usize| visible(&scene.materials[index]).is_some() || own(index).gives_sheen();
+    let none_has = !(0..scene.materials.len()).any(has_sheen);
+    let edited = |(index, material): (usize, &Material)| {
+        let mut changes = edits.of_material(index);
+        if !has_sheen(index) && !none_has {
+            // What is said of the sheens of all materials is none of this one's business.
+            (changes.alpha, changes.sheen_color) = (None, None);
+        }
+        edited(material.clone(), &changes)
+    };
+    scene.materials.iter().enumerate().map(edited).collect()
+}
+
+fn edited(mut material: Material, edits: &MaterialEdits) -> Material {
+    material.base_color = edits.base_color.unwrap_or(material.base_color);
+    material.metallic = edits.metallic.unwrap_or(material.metallic);
+    material.roughness = edits.roughness.unwrap_or(material.roughness);
+    if visible(&material).is_none() && edits.gives_sheen() {
+        // Whatever textures there are belong to a sheen that nobody saw.
+        for slot in [TextureSlot::SheenColor, TextureSlot::SheenRoughness, TextureSlot::SheenWeight] {
+            material.textures[slot as usize] = None;
+        }
+        material.sheen = Some(Sheen::new(Vec3::ONE, ROUGHNESS));
+    }
+    if let Some(sheen) = &mut material.sheen {
+        sheen.roughness_map = edits.roughness_map.unwrap_or(sheen.roughness_map);
+        sheen.model = edits.sheen_model.unwrap_or(sheen.model);
+        sheen.layering = edits.layering.unwrap_or(sheen.layering);
+        if let Some(alpha) = edits.alpha {
+            (sheen.roughness, sheen.roughness_map) = (alpha, RoughnessMap::Identity);
+            material.textures[TextureSlot::SheenRoughness as usize] = None;
+        }
+        if let Some(color) = edits.sheen_color {
+            (sheen.color, sheen.weight) = (color, 1.0);
+            material.textures[TextureSlot::SheenColor as usize] = None;
+            material.textures[TextureSlot::SheenWeight as usize] = None;
+        }
+    }
+    // Black fibres scatter nothing. They still hide the base under a rule by which their colour does not count, and a
+    // given black stays a sheen.
+    let counts =
+        |sheen: &Sheen| sheen.weight > 0.0 && (sheen.color != Vec3::ZERO || sheen.layering == Layering::OpenPbr);
+    let is_given = edits.sheen_color.is_some();
+    material.sheen = material.sheen.filter(|sheen| is_given || counts(sheen));
+    material
 }

@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::TextureUse;
+use super::{Sheen, TextureUse};
 
 /// How a surface scatters and emits: glTF's metallic-roughness base, a layer of fibres on it, and the textures of both.
 ///
@@ -91,25 +91,6 @@ pub enum AlphaMode {
     },
     /// What lies behind shows through by the rest.
     Blend,
-}
-
-/// The parameters of the sheen (KHR_materials_sheen's or KHR_materials_fuzz's factors).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sheen {
-    /// `C_sheen` of a layer of full weight, linear Rec. 709, each in [0, 1].
-    pub color: Vec3,
-    /// The user's roughness in [0, 1].
-    pub roughness: f32,
-    /// How much of the surface the layer covers, in [0, 1]: 1 for KHR_materials_sheen, fuzzFactor for
-    /// KHR_materials_fuzz.
-    pub weight: f32,
-}
-
-impl Sheen {
-    /// A layer that covers all of the surface, as in KHR_materials_sheen.
-    pub fn new(color: Vec3, roughness: f32) -> Self {
-        Self { color, roughness, weight: 1.0 }
-    }
 }
 
 /// What a texture stands for: which of its channels are read, and how they are encoded.

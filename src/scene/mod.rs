@@ -1,6 +1,7 @@
 //! What there is to be drawn: meshes, materials, polygon lights and cameras, in metres and linear Rec. 709.
 //!
-//! A scene is plain data. [`gltf`] makes one from a file; whoever draws it reads it, and changes nothing in it.
+//! A scene is plain data. [`gltf`] makes one from a file, and nobody changes it after that: what users change are
+//! [`Edits`], and what is drawn ([`Drawn`]) is a function of both.
 
 #[cfg(feature = "cli")]
 pub mod assets;
@@ -8,6 +9,7 @@ mod bounds;
 mod camera;
 mod convex_parts;
 mod drawn;
+mod edits;
 mod emission;
 mod emitter;
 mod error;
@@ -20,9 +22,11 @@ mod material;
 mod mesh;
 mod mipmap;
 mod notices;
+mod orbit;
 mod outline;
 mod rig;
 mod settings;
+mod sheen;
 mod tangents;
 #[cfg(test)]
 mod tests;
@@ -32,13 +36,16 @@ use glam::Vec3;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
-pub use drawn::DrawnInstances;
+pub use drawn::Drawn;
+pub use edits::{CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select};
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
-pub use material::{AlphaMode, Material, Sheen, TextureSlot};
+pub use material::{AlphaMode, Material, TextureSlot};
 pub use mesh::{Instance, Mesh};
 pub use mipmap::{Encoding, Level};
-pub use settings::{Layering, Lobes, Overrides, RoughnessMap, Settings, SheenLook, SheenModel};
+pub use orbit::Orbit;
+pub use settings::{Lobes, Settings};
+pub use sheen::{Layering, RoughnessMap, Sheen, SheenModel};
 pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from_srgb};
 
 /// Everything that a picture is made of.
@@ -70,16 +77,7 @@ pub struct Scene {
 impl Scene {
     /// The camera of the name `wanted`, else, where it is a number, the camera of that index, counted from 0.
     pub fn camera(&self, wanted: &str) -> Option<&Camera> {
-        let named = self.cameras.iter().find(|camera| camera.name == wanted);
-        named.or_else(|| self.cameras.get(wanted.parse::<usize>().ok()?))
-    }
-
-    /// Moves the light of this index, and the emitter that is drawn for it, by `offset` metres in the world.
-    pub fn move_light(&mut self, index: usize, offset: Vec3) {
-        let light = &mut self.lights[index];
-        let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
-        outlines.flatten().for_each(|vertex| *vertex += offset);
-        self.instances[light.instance].world_from_mesh.w_axis += offset.extend(0.0);
+        select(self, Kind::Camera, wanted).ok().map(|found| &self.cameras[found[0]])
     }
 
     /// A box in the world around all instances. It is not the smallest: around rotated meshes there is room.

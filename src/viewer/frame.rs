@@ -3,7 +3,8 @@
 use egui_wgpu::ScreenDescriptor;
 use wgpu::{CurrentSurfaceTexture, TextureView};
 
-use super::state::{Change, State};
+use super::change::Change;
+use super::state::State;
 use super::{ViewerError, native};
 use crate::picture::DisplayImage;
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
@@ -60,7 +61,7 @@ impl Frame {
         let radiance = RadianceFormat::display(&gpu.adapter, samples).or(RadianceFormat::display(&gpu.adapter, 1));
         let radiance = radiance.ok_or_else(|| ViewerError::Window("the adapter cannot draw floats".to_owned()))?;
         let format = Format { radiance, output: configuration.format, measured: false };
-        let renderer = Renderer::new(&gpu, format, table, &state.scene, &state.settings)?;
+        let renderer = Renderer::new(&gpu, format, table, &state.drawn())?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
         Ok(Self { surface, configuration, gpu, renderer, egui, place: Rect::full([0, 0]) })
     }
@@ -124,13 +125,14 @@ impl Frame {
         change: Change,
     ) -> Result<(), ViewerError> {
         if change == Change::Scene {
-            self.renderer.update(&self.gpu, &state.scene, &state.settings)?;
+            self.renderer.update(&self.gpu, &state.drawn())?;
         }
         let size = [place.width, place.height];
-        let showing = Showing::Shown { exposure: state.settings.exposure, tone: state.tone };
+        let settings = state.edits.settings();
+        let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
         if change >= Change::Drawn || place != self.place {
-            let view = View::new(&state.orbit.camera(), size, Rect::full(size));
-            self.renderer.draw(&self.gpu, encoder, size, (&view, &state.settings, showing));
+            let view = View::new(&state.orbit().camera(), size, Rect::full(size));
+            self.renderer.draw(&self.gpu, encoder, size, (&view, &settings, showing));
             self.place = place;
         }
         self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
@@ -182,10 +184,11 @@ impl Frame {
     fn picture(&self, state: &State, table: &SheenTable) -> Result<DisplayImage, String> {
         let size = [self.place.width, self.place.height];
         let samples = RadianceFormat::display(&self.gpu.adapter, SAMPLES).map_or(1, |format| format.samples);
-        let renderer = Offscreen::for_display(&self.gpu, samples, table, &state.scene, &state.settings);
+        let drawn = state.drawn();
+        let renderer = Offscreen::for_display(&self.gpu, samples, table, &drawn);
         let mut renderer = renderer.map_err(|error| error.to_string())?;
-        let camera = state.orbit.camera();
-        let picture = renderer.display(&self.gpu, &camera, size, &state.settings, state.tone);
+        let camera = state.orbit().camera();
+        let picture = renderer.display(&self.gpu, &camera, size, &drawn.settings);
         native::block_on_device(&self.gpu, picture).map_err(|error| error.to_string())
     }
 }

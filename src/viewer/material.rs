@@ -1,32 +1,55 @@
-//! The part of the panel that shows one material.
+//! The part of the panel that shows one material: its sheen, how that lies on the base, and the base.
 
 use egui::{Align, Layout, Ui};
 use glam::Vec3;
 
-use super::state::{Change, State};
-use super::widgets::{color_button, slider};
-use crate::scene::{Layering, Overrides, RoughnessMap, Sheen, SheenModel};
+use super::state::State;
+use super::widgets::{color_button, share_slider, short};
+use crate::scene::{Drawn, Layering, Material, MaterialEdits, RoughnessMap, Sheen, SheenModel, TextureSlot};
 
 /// Share of the base that is left when layering is first made manual.
 const MANUAL: f32 = 0.5;
 
-/// The sheen of the material that the user has picked, and how it lies on the base.
-pub fn show(ui: &mut Ui, state: &mut State) -> Change {
+/// Most characters of a name in the list of materials.
+const NAME_SHOWN: usize = 34;
+
+/// The material that the user has picked. What is not touched is left unset.
+pub fn show(ui: &mut Ui, state: &mut State) {
     ui.strong("Sheen");
-    if state.scene.materials.len() > 1 {
+    let materials = &state.scene.materials;
+    if materials.len() > 1 {
         // Names may repeat, or be empty.
-        let name = |index: usize| format!("{index} {}", state.scene.materials[index].name);
+        let name = |index: usize| short(&format!("{index} {}", materials[index].name), NAME_SHOWN);
         let width = ui.available_width() - 60.0;
         let list = egui::ComboBox::from_label("material").width(width).truncate();
-        list.show_index(ui, &mut state.material, state.scene.materials.len(), name);
+        let shown = list.show_index(ui, &mut state.material, materials.len(), name);
+        shown.on_hover_text(&materials[state.material].name);
     }
-    sheen(ui, state).max(overrides(ui, state))
+    let material = &Drawn::new(&state.scene, &state.edits).materials[state.material];
+    let mut changed = MaterialEdits::default();
+    match material.sheen {
+        Some(sheen) => show_sheen(ui, &sheen, &mut changed),
+        None if material.unlit => drop(ui.weak("unlit: it shines as it is")),
+        None => {
+            if ui.button("Add a sheen").clicked() {
+                (changed.alpha, changed.sheen_color) = (Some(0.5), Some(Vec3::ONE));
+            }
+        }
+    }
+    show_base(ui, material, &mut changed);
+    if changed != MaterialEdits::default() {
+        let own = state.edits.materials.entry(state.material).or_default();
+        *own = changed.or(*own);
+    }
 }
 
-/// The material's own parameters.
-fn sheen(ui: &mut Ui, state: &mut State) -> Change {
-    let before = state.scene.materials[state.material].sheen;
-    let mut sheen = before.unwrap_or(Sheen::new(Vec3::ZERO, 0.5));
+/// What the user has made of a value, where that is another.
+fn changed<T: PartialEq>(before: T, after: T) -> Option<T> {
+    (after != before).then_some(after)
+}
+
+fn show_sheen(ui: &mut Ui, sheen: &Sheen, edits: &mut MaterialEdits) {
+    let mut alpha = sheen.alpha();
     ui.label("alpha");
     ui.horizontal(|ui| {
         ui.label("fuzz");
@@ -35,35 +58,33 @@ fn sheen(ui: &mut Ui, state: &mut State) -> Change {
             // Its box, and room at the panel's edge.
             let value_width = 56.0;
             ui.spacing_mut().slider_width = ui.available_width() - value_width;
-            slider(ui, egui::Slider::new(&mut sheen.roughness, 0.0..=1.0).fixed_decimals(2));
+            share_slider(ui, &mut alpha);
         });
     });
+    edits.alpha = changed(sheen.alpha(), alpha);
+    let mut color = sheen.color;
     ui.horizontal(|ui| {
         ui.label("C_sheen");
-        color_button(ui, &mut sheen.color);
+        color_button(ui, &mut color);
     });
-    // A material without sheen stays without until it is given a colour.
-    if Some(sheen) == before || (before.is_none() && sheen.color == Vec3::ZERO) {
-        return Change::None;
-    }
-    // With a weight of 0 nobody would see the change.
-    if sheen.weight == 0.0 {
-        sheen.weight = 1.0;
-    }
-    state.scene.materials[state.material].sheen = Some(sheen);
-    Change::Scene
-}
-
-/// What the settings change in the material. What the user does not touch is left unset.
-fn overrides(ui: &mut Ui, state: &mut State) -> Change {
-    let index = state.material;
-    let before = state.settings.overrides_of(index);
-    let mut map = before.roughness_map.unwrap_or_default();
+    edits.sheen_color = changed(sheen.color, color);
+    let mut map = sheen.roughness_map;
     ui.horizontal(|ui| {
         ui.label("roughness map");
         pick(ui, "roughness map", &mut map, &ROUGHNESS_MAPS);
     });
-    let mut layering = state.settings.layering_of(index);
+    edits.roughness_map = changed(sheen.roughness_map, map);
+    edits.layering = changed(sheen.layering, layering(ui, sheen.layering));
+    let mut model = sheen.model;
+    ui.horizontal(|ui| {
+        ui.label("sheen model");
+        let models = SheenModel::NAMES.into_iter().filter(|(_, model)| model.is_real_time());
+        pick(ui, "sheen model", &mut model, &models.collect::<Vec<_>>());
+    });
+    edits.sheen_model = changed(sheen.model, model);
+}
+
+fn layering(ui: &mut Ui, mut layering: Layering) -> Layering {
     ui.horizontal(|ui| {
         ui.label("layering");
         // Picking manual from the list keeps the share that is set already.
@@ -80,31 +101,34 @@ fn overrides(ui: &mut Ui, state: &mut State) -> Change {
     if let Layering::Manual(share) = &mut layering {
         ui.horizontal(|ui| {
             ui.label("base's share");
-            slider(ui, egui::Slider::new(share, 0.0..=1.0).fixed_decimals(2));
+            share_slider(ui, share);
         });
     }
-    let mut model = before.sheen_model.unwrap_or_default();
+    layering
+}
+
+fn show_base(ui: &mut Ui, material: &Material, edits: &mut MaterialEdits) {
+    ui.separator();
+    ui.strong("Base");
+    let (mut color, mut metallic, mut roughness) = (material.base_color, material.metallic, material.roughness);
+    let textured = |slot: TextureSlot| if material.texture(slot).is_some() { "x texture" } else { "" };
     ui.horizontal(|ui| {
-        ui.label("sheen model");
-        let models = SheenModel::NAMES.into_iter().filter(|(_, model)| model.is_real_time());
-        pick(ui, "sheen model", &mut model, &models.collect::<Vec<_>>());
+        ui.label("base colour");
+        color_button(ui, &mut color);
+        ui.weak(textured(TextureSlot::BaseColor));
     });
-    let mut changed = Overrides::default();
-    if map != before.roughness_map.unwrap_or_default() {
-        changed.roughness_map = Some(map);
-    }
-    if layering != state.settings.layering_of(index) {
-        changed.layering = Some(layering);
-    }
-    if model != before.sheen_model.unwrap_or_default() {
-        changed.sheen_model = Some(model);
-    }
-    if changed == Overrides::default() {
-        return Change::None;
-    }
-    let own = state.settings.material_overrides.entry(index).or_default();
-    *own = changed.or(*own);
-    Change::Scene
+    ui.horizontal(|ui| {
+        ui.label("metallic");
+        share_slider(ui, &mut metallic);
+    });
+    ui.horizontal(|ui| {
+        ui.label("roughness");
+        share_slider(ui, &mut roughness);
+    });
+    ui.weak(textured(TextureSlot::MetallicRoughness));
+    edits.base_color = changed(material.base_color, color);
+    edits.metallic = changed(material.metallic, metallic);
+    edits.roughness = changed(material.roughness, roughness);
 }
 
 const ROUGHNESS_MAPS: [(&str, RoughnessMap); 3] =

@@ -2,13 +2,16 @@
 //!
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
+mod change;
 mod frame;
 mod layout;
+mod lights;
 mod material;
 mod native;
-mod orbit;
 mod panel;
 mod state;
+#[cfg(test)]
+mod tests;
 mod widgets;
 mod window;
 
@@ -16,7 +19,7 @@ use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
 use crate::renderer::{DeviceError, RenderError};
-use crate::scene::Scene;
+use crate::scene::{Edits, Scene};
 use crate::table::SheenTable;
 
 /// The window could not be opened, or could not go on.
@@ -47,10 +50,15 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     })
 }
 
-/// Shows the scene, under the title `name`, until the window is closed. Panics where the scene has no camera or no
-/// material.
-pub fn run(event_loop: EventLoop<()>, name: &str, scene: Scene, table: SheenTable) -> Result<(), ViewerError> {
-    let mut app = window::App::new(state::State::new(name, scene), table);
+/// Shows the scene, at first with these edits, under the title `name`, until the window is closed. Panics where the
+/// scene has no camera or no material.
+pub fn run(
+    event_loop: EventLoop<()>,
+    name: &str,
+    (scene, edits): (Scene, Edits),
+    table: SheenTable,
+) -> Result<(), ViewerError> {
+    let mut app = window::App::new(state::State::new(name, scene, edits), table);
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
     app.failure.map_or(Ok(()), Err)
 }

@@ -8,6 +8,8 @@ use crate::file::write_atomically;
 use crate::picture::DisplayImage;
 use crate::renderer::Gpu;
 
+use super::state::State;
+
 /// A point in time.
 pub(super) use std::time::Instant;
 
@@ -39,13 +41,29 @@ pub(super) fn finish(gpu: &Gpu) {
 
 /// Saves a picture in the current folder under the first free name; says where.
 pub(super) fn save(picture: &DisplayImage) -> Result<String, String> {
-    let path = free_name().ok_or("velour-001.png to velour-999.png are taken")?;
-    let bytes = picture.to_png().map_err(|error| error.to_string())?;
-    write_atomically(&path, &bytes).map_err(|error| error.to_string())?;
+    save_as("png", &picture.to_png().map_err(|error| error.to_string())?)
+}
+
+/// Saves what the user has changed as a text in the current folder; says where, or why not.
+pub(super) fn save_state(state: &State) -> String {
+    let text = format!("# Changes to {}, for --state.\n{}", one_line(&state.name), state.edits.to_text(&state.scene));
+    save_as("toml", text.as_bytes()).unwrap_or_else(|error| error)
+}
+
+/// Control characters would end the comment that a name stands in.
+fn one_line(name: &str) -> String {
+    name.chars().filter(|character| !character.is_control()).collect()
+}
+
+/// Writes a file in the current folder under the first free name; says where.
+fn save_as(extension: &str, bytes: &[u8]) -> Result<String, String> {
+    let taken = || format!("velour-001.{extension} to velour-999.{extension} are taken");
+    let path = free_name(extension).ok_or_else(taken)?;
+    write_atomically(&path, bytes).map_err(|error| error.to_string())?;
     Ok(format!("saved {}", path.display()))
 }
 
-/// The first of velour-001.png to velour-999.png that is not there.
-fn free_name() -> Option<PathBuf> {
-    (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.png"))).find(|path| !path.exists())
+/// The first of velour-001 to velour-999 with this extension that is not there.
+fn free_name(extension: &str) -> Option<PathBuf> {
+    (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.{extension}"))).find(|path| !path.exists())
 }

@@ -2,74 +2,85 @@
 
 use std::time::Duration;
 
-use super::orbit::Orbit;
-use crate::picture::ToneCurve;
-use crate::scene::{Instance, Light, Material, Scene, Settings, Sheen};
+use glam::Vec3;
 
-/// What a change makes necessary, from least to most.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Change {
-    #[default]
-    None,
-    /// The tone curve has changed: what was drawn is shown again.
-    Shown,
-    /// The view, the exposure, the ambient light, or which lobes are summed has changed: the scene is drawn again.
-    Drawn,
-    /// Materials, what the settings change in them, or lights have changed: they are sent to the device first.
-    Scene,
-}
+use crate::scene::{CameraEdit, Drawn, Edits, Orbit, Scene};
 
-/// The scene as it is now, and what it was when loaded.
+/// The scene as it was loaded, and what the user changes in it.
 pub struct State {
     /// The file's name.
     pub name: String,
     pub scene: Scene,
-    pub settings: Settings,
-    pub tone: ToneCurve,
-    pub orbit: Orbit,
+    pub edits: Edits,
     /// The material that the panel shows.
     pub material: usize,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
     /// What became of the last command: a screenshot's name, or why there is none.
     pub message: String,
-    loaded: Loaded,
+    /// The middle of what is lit, metres: a camera of the scene turns about it.
+    center: Vec3,
+    /// The step of coordinates, metres: a power of ten, so small that some hundred of them cross the scene.
+    step: f32,
 }
 
-/// Those parts of the scene that the user may change, as they were loaded.
-struct Loaded {
-    materials: Vec<Material>,
-    lights: Vec<Light>,
-    instances: Vec<Instance>,
-}
+/// How many steps cross the scene.
+const STEPS: f64 = 500.0;
 
 impl State {
     /// The state right after loading. Panics where the scene has no camera or no material.
-    pub fn new(name: &str, scene: Scene) -> Self {
+    pub fn new(name: &str, scene: Scene, edits: Edits) -> Self {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
-        let has_sheen = |sheen: Option<Sheen>| sheen.is_some_and(|sheen| sheen.color.max_element() > 0.0);
+        let shown = Drawn::new(&scene, &edits).materials.iter().position(|material| material.sheen.is_some());
         Self {
             name: name.to_owned(),
-            settings: Settings::default(),
-            tone: ToneCurve::default(),
-            orbit: Orbit::new(&scene.cameras[0], scene.subject().center()),
-            material: scene.materials.iter().position(|material| has_sheen(material.sheen)).unwrap_or(0),
+            material: shown.unwrap_or(0),
             frame_time: None,
             message: String::new(),
-            loaded: Loaded {
-                materials: scene.materials.clone(),
-                lights: scene.lights.clone(),
-                instances: scene.instances.clone(),
-            },
+            center: scene.subject().center(),
+            step: step(scene.bounds().diagonal()),
             scene,
+            edits,
         }
+    }
+
+    /// The scene as it is drawn.
+    pub fn drawn(&self) -> Drawn<'_> {
+        Drawn::new(&self.scene, &self.edits)
+    }
+
+    /// The view.
+    pub fn orbit(&self) -> Orbit {
+        match self.edits.camera {
+            Some(CameraEdit::Orbit(orbit)) => orbit,
+            _ => Orbit::new(&self.edits.camera(&self.scene), self.center),
+        }
+    }
+
+    /// The step of coordinates in the scene, metres.
+    pub fn step(&self) -> f32 {
+        self.step
     }
 
     /// Puts everything back as it was loaded.
     pub fn reset(&mut self) {
-        let mut scene = std::mem::take(&mut self.scene);
-        let Loaded { materials, lights, instances } = &self.loaded;
-        (scene.materials, scene.lights, scene.instances) = (materials.clone(), lights.clone(), instances.clone());
-        *self = Self { frame_time: self.frame_time, ..Self::new(&self.name, scene) };
+        self.edits = Edits::default();
+    }
+}
+
+/// The step of coordinates in a scene of this size, both in metres.
+fn step(size: f64) -> f32 {
+    10f64.powf((size / STEPS).log10().round().clamp(-9.0, 9.0)) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_follow_the_scenes_size() {
+        for (size, expected) in [(1e-3, 1e-6), (3.0, 0.01), (1e3, 1.0), (0.0, 1e-9), (f64::INFINITY, 1e9)] {
+            assert_eq!(step(size), expected, "{size}");
+        }
     }
 }

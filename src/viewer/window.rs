@@ -10,8 +10,10 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::{Window, WindowId};
 
+use super::change::Change;
 use super::frame::{Frame, Presented};
-use super::state::{Change, State};
+use super::panel::Request;
+use super::state::State;
 use super::{ViewerError, native};
 use crate::renderer::device;
 use crate::table::SheenTable;
@@ -39,7 +41,7 @@ struct Open {
 struct Pending {
     output: egui::FullOutput,
     change: Change,
-    screenshot: bool,
+    request: Option<Request>,
     picture: Option<egui::Rect>,
 }
 
@@ -80,7 +82,7 @@ impl App {
         open.pending.output.append(output);
         if let Some(layout) = layout {
             open.pending.change = open.pending.change.max(layout.change);
-            open.pending.screenshot |= layout.screenshot;
+            open.pending.request = layout.request.or(open.pending.request);
             open.pending.picture = Some(layout.picture);
         }
     }
@@ -94,7 +96,7 @@ impl App {
             // Minimised: what has changed is drawn when the window comes back.
             return Ok(());
         }
-        let Pending { output, change, screenshot, picture } = std::mem::take(&mut open.pending);
+        let Pending { output, change, request, picture } = std::mem::take(&mut open.pending);
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         let place = picture.unwrap_or(egui::Rect::ZERO);
         let presented = open.frame.draw((open.egui.egui_ctx(), output), &self.state, place, change)?;
@@ -103,10 +105,12 @@ impl App {
         } else if change >= Change::Drawn {
             self.state.frame_time = Some(start.elapsed());
         }
-        if screenshot {
-            self.state.message = open.frame.screenshot(&self.state, &self.table);
+        match request {
+            Some(Request::Screenshot) => self.state.message = open.frame.screenshot(&self.state, &self.table),
+            Some(Request::SaveState) => self.state.message = native::save_state(&self.state),
+            None => {}
         }
-        if presented == Presented::Again || delay.is_zero() || screenshot {
+        if presented == Presented::Again || delay.is_zero() || request.is_some() {
             open.window.request_redraw();
         } else {
             let wake = native::after(delay);

@@ -1,7 +1,7 @@
 //! The base under the sheen: specular and diffuse, and how they are layered.
 
 use glam::Vec3;
-use velour::scene::{Layering, Lobes, Material, Overrides, Projection, RoughnessMap, Settings, Sheen};
+use velour::scene::{Edits, Layering, Lobes, Material, MaterialEdits, Projection, RoughnessMap, Sheen};
 use velour::table::SheenTable;
 
 use super::compare::{SIZE, hold, linear};
@@ -26,7 +26,7 @@ fn coated(metallic: f32, roughness: f32, sheen: Option<Sheen>) -> Material {
 }
 
 fn fuzz() -> Option<Sheen> {
-    Some(Sheen { color: Vec3::new(0.9, 0.6, 0.4), roughness: 0.4, weight: 0.8 })
+    Some(Sheen { weight: 0.8, ..Sheen::new(Vec3::new(0.9, 0.6, 0.4), 0.4) })
 }
 
 /// A floor of this material under a window.
@@ -37,20 +37,20 @@ fn stage(material: Material) -> Stage {
 }
 
 /// All lobes, but no emission.
-fn reflected() -> Settings {
+fn reflected() -> Edits {
     let lobes = Lobes { emission: false, ..Lobes::default() };
-    Settings { lobes, lights_visible: false, ..Settings::default() }
+    Edits { lobes: Some(lobes), lights_visible: Some(false), ..Edits::default() }
 }
 
-fn layered(layering: Layering) -> Settings {
-    Settings { overrides: Overrides { layering: Some(layering), ..Overrides::default() }, ..reflected() }
+fn layered(layering: Layering) -> Edits {
+    Edits { every_material: MaterialEdits { layering: Some(layering), ..MaterialEdits::default() }, ..reflected() }
 }
 
 #[test]
 fn metals_and_dielectrics_shine_at_any_roughness() {
     let specular = Lobes { sheen: false, diffuse: false, specular: true, emission: false };
     for (metallic, roughness) in [(1.0, 0.1), (1.0, 0.4), (0.0, 0.3), (0.5, 0.7), (1.0, 1.0)] {
-        hold(&stage(coated(metallic, roughness, None)), &Settings { lobes: specular, ..reflected() });
+        hold(&stage(coated(metallic, roughness, None)), &Edits { lobes: Some(specular), ..reflected() });
         hold(&stage(coated(metallic, roughness, None)), &reflected());
     }
 }
@@ -72,8 +72,8 @@ fn the_sheen_takes_from_the_base_by_the_rule_that_is_named() {
 #[test]
 fn the_roughness_is_mapped_as_asked() {
     for map in [RoughnessMap::Square, RoughnessMap::Sqrt] {
-        let overrides = Overrides { roughness_map: Some(map), ..Overrides::default() };
-        hold(&stage(velvet([0.9, 0.5, 0.2], 0.4)), &Settings { overrides, ..reflected() });
+        let overrides = MaterialEdits { roughness_map: Some(map), ..MaterialEdits::default() };
+        hold(&stage(velvet([0.9, 0.5, 0.2], 0.4)), &Edits { every_material: overrides, ..reflected() });
     }
 }
 
@@ -81,12 +81,12 @@ fn the_roughness_is_mapped_as_asked() {
 fn a_uniform_environment_is_exact() {
     let ambient = Vec3::new(0.5, 1.0, 2.0);
     for layering in [Layering::Gltf, Layering::OpenPbr, Layering::Manual(0.37), Layering::None] {
-        hold(&stage(coated(0.3, 0.5, fuzz())), &Settings { ambient, ..layered(layering) });
+        hold(&stage(coated(0.3, 0.5, fuzz())), &Edits { ambient: Some(ambient), ..layered(layering) });
     }
 }
 
 /// Radiance of a floor in strips of these materials, under a ceiling of radiance 1 that covers the hemisphere.
-fn furnace(materials: Vec<Material>, settings: &Settings) -> Vec<Vec3> {
+fn furnace(materials: Vec<Material>, edits: &Edits) -> Vec<Vec3> {
     let count = materials.len();
     let mut things: Vec<Thing> = Vec::new();
     for (index, material) in materials.into_iter().enumerate() {
@@ -97,22 +97,22 @@ fn furnace(materials: Vec<Material>, settings: &Settings) -> Vec<Vec3> {
     things.push(Thing::rectangle([1e4, 1e4], glow([1.0; 3])).placed(facing([0.0, 1.0, 0.0], ORIGIN)));
     let mut stage = Stage::new(things, looking([0.0, 0.9, 0.0], [0.0, 0.0, -1.2]));
     stage.projection = Projection::Perspective { yfov: 2.2, near: 0.01, far: 1e3 };
-    let picture = linear(&stage.scene(), &SheenTable::embedded(), settings, [64, 96]);
+    let picture = linear(&stage.scene(), &SheenTable::embedded(), edits, [64, 96]);
     picture.pixels.into_iter().map(Vec3::from).collect()
 }
 
 #[test]
 fn no_rule_gains_energy_in_a_furnace() {
-    let settings = |layering| {
+    let edits = |layering| {
         let lobes = Lobes { emission: false, ..Lobes::default() };
-        Settings { lobes, lights_visible: false, ..layered(layering) }
+        Edits { lobes: Some(lobes), lights_visible: Some(false), ..layered(layering) }
     };
     let white = |metallic: f32, roughness: f32, alpha: f32, color: f32, weight: f32| Material {
         base_color: Vec3::ONE,
         metallic,
         roughness,
         specular: 1.0,
-        sheen: Some(Sheen { color: Vec3::splat(color), roughness: alpha, weight }),
+        sheen: Some(Sheen { weight, ..Sheen::new(Vec3::splat(color), alpha) }),
         ..plain()
     };
     for layering in [Layering::Gltf, Layering::OpenPbr, Layering::Reciprocal] {
@@ -121,7 +121,7 @@ fn no_rule_gains_energy_in_a_furnace() {
                 let roughnesses = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0];
                 let materials =
                     roughnesses.iter().flat_map(|&r| [0.0, 0.5, 1.0].map(|m| white(m, r, alpha, color, weight)));
-                let pixels = furnace(materials.collect(), &settings(layering));
+                let pixels = furnace(materials.collect(), &edits(layering));
                 let greatest = pixels.iter().map(|pixel| pixel.max_element()).fold(0.0, f32::max);
                 assert!(greatest <= 1.01, "{layering:?}: {greatest} at alpha {alpha}, C {color}, weight {weight}");
                 assert!(greatest > 0.5 && pixels.iter().all(|pixel| pixel.is_finite()), "{greatest}");
@@ -129,20 +129,20 @@ fn no_rule_gains_energy_in_a_furnace() {
         }
     }
     // The ruler itself: without a rule there is a gain.
-    let pixels = furnace(vec![white(0.0, 0.5, 0.5, 1.0, 1.0); 3], &settings(Layering::None));
+    let pixels = furnace(vec![white(0.0, 0.5, 0.5, 1.0, 1.0); 3], &edits(Layering::None));
     assert!(pixels.iter().map(|pixel| pixel.max_element()).fold(0.0, f32::max) > 1.2);
 }
 
 /// The reciprocal rule takes the light's side at one cosine for each light: against the integral over the light.
 #[test]
 fn the_reciprocal_rule_is_near_the_integral_over_the_light() {
-    let (table, settings) = (SheenTable::embedded(), layered(Layering::Reciprocal));
+    let (table, edits) = (SheenTable::embedded(), layered(Layering::Reciprocal));
     let mut worst = 0.0_f64;
     for roughness in [0.15, 0.3, 0.6, 1.0] {
         let sheen = Some(Sheen::new(Vec3::ONE, roughness));
         let material = Material { base_color: Vec3::ONE, sheen, ..plain() };
         let lobes = Lobes { sheen: false, diffuse: true, specular: false, emission: false };
-        let settings = Settings { lobes, ..settings.clone() };
+        let edits = Edits { lobes: Some(lobes), ..edits.clone() };
         // A window, a ceiling, and a wall that reaches below the horizon.
         let lights = [
             ([0.6, 0.4], facing([0.7, 0.8, -1.3], ORIGIN)),
@@ -153,8 +153,8 @@ fn the_reciprocal_rule_is_near_the_integral_over_the_light() {
             let floor = Thing::rectangle([1.5, 1.5], material.clone()).placed(facing(ORIGIN, UP));
             let light = Thing::rectangle(half, glow([4.0, 3.0, 2.0])).placed(place);
             let stage = Stage::new(vec![floor, light], looking([0.2, 0.5, 2.4], ORIGIN));
-            let picture = linear(&stage.scene(), &table, &settings, SIZE);
-            let truth = Truth::new(&stage, &table, &settings, SIZE);
+            let picture = linear(&stage.scene(), &table, &edits, SIZE);
+            let truth = Truth::new(&stage, &table, &edits, SIZE);
             for (index, pixel) in picture.pixels.iter().enumerate() {
                 let center = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(|at| f64::from(at) + 0.5);
                 // Not at the floor's edges, which drivers shift.

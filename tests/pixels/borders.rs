@@ -1,7 +1,7 @@
 //! Bounds on which pictures stand, from both sides: what lies a little within is drawn in full.
 
 use glam::Vec3;
-use velour::scene::{Layering, Lobes, Material, Overrides, Projection, PunctualKind, PunctualLight, Settings, Sheen};
+use velour::scene::{Edits, Layering, Lobes, Material, MaterialEdits, Projection, PunctualKind, PunctualLight, Sheen};
 use velour::table::SheenTable;
 
 use super::compare::{SIZE, differences, hold, linear};
@@ -13,9 +13,9 @@ const ORIGIN: [f32; 3] = [0.0; 3];
 /// Of a picture with a pixel in its very middle.
 const ODD: [u32; 2] = [65, 65];
 
-fn diffuse_alone() -> Settings {
+fn diffuse_alone() -> Edits {
     let lobes = Lobes { sheen: false, diffuse: true, specular: false, emission: false };
-    Settings { lobes, lights_visible: false, ..Settings::default() }
+    Edits { lobes: Some(lobes), lights_visible: Some(false), ..Edits::default() }
 }
 
 fn point_light(position: Vec3) -> PunctualLight {
@@ -29,10 +29,10 @@ fn point_light(position: Vec3) -> PunctualLight {
 }
 
 /// Red of the pixel in the middle, seen from straight above.
-fn middle(stage: Stage, settings: &Settings) -> f32 {
+fn middle(stage: Stage, edits: &Edits) -> f32 {
     let projection = Projection::Orthographic { ymag: 0.1, near: 0.1, far: 10.0 };
     let stage = Stage { projection, world_from_camera: looking([0.0, 1.0, 0.0], ORIGIN), ..stage };
-    let picture = linear(&stage.scene(), &SheenTable::embedded(), settings, ODD);
+    let picture = linear(&stage.scene(), &SheenTable::embedded(), edits, ODD);
     picture.pixels[picture.pixels.len() / 2][0]
 }
 
@@ -61,10 +61,10 @@ fn back_faces_are_lit_by_lights_without_extent_behind_them() {
     let floor = Thing::rectangle([1.5, 1.5], material).placed(facing(ORIGIN, UP));
     let mut stage = Stage::new(vec![floor], looking([0.4, -1.1, 2.6], ORIGIN));
     stage.punctual.push(point_light(Vec3::new(0.5, -1.0, -0.6)));
-    let (table, settings) = (SheenTable::embedded(), Settings::default());
-    let picture = linear(&stage.scene(), &table, &settings, SIZE);
+    let (table, edits) = (SheenTable::embedded(), Edits::default());
+    let picture = linear(&stage.scene(), &table, &edits, SIZE);
     assert!(picture.pixels.iter().any(|pixel| pixel[0] > 0.01), "nothing is lit");
-    differences(&picture, &Truth::new(&stage, &table, &settings, SIZE)).unwrap_or_else(|said| panic!("{said}"));
+    differences(&picture, &Truth::new(&stage, &table, &edits, SIZE)).unwrap_or_else(|said| panic!("{said}"));
 }
 
 /// By the reciprocal rule light comes from a whole hemisphere as from its mean cosine, 2/3.
@@ -74,9 +74,9 @@ fn the_reciprocal_rule_takes_the_environment_at_two_thirds() {
     for alpha in [0.3, 0.6] {
         let material = Material { sheen: Some(Sheen::new(Vec3::ONE, alpha)), ..plain() };
         let floor = Thing::rectangle([1.0, 1.0], material).placed(facing(ORIGIN, UP));
-        let overrides = Overrides { layering: Some(Layering::Reciprocal), ..Overrides::default() };
-        let settings = Settings { ambient: Vec3::ONE, overrides, ..diffuse_alone() };
-        let left = f64::from(middle(Stage::new(vec![floor], looking(UP, ORIGIN)), &settings));
+        let overrides = MaterialEdits { layering: Some(Layering::Reciprocal), ..MaterialEdits::default() };
+        let edits = Edits { ambient: Some(Vec3::ONE), every_material: overrides, ..diffuse_alone() };
+        let left = f64::from(middle(Stage::new(vec![floor], looking(UP, ORIGIN)), &edits));
         let r = |mu| table.lookup(f64::from(alpha), mu)[2];
         let expected = 1.0 - r(1.0).max(r(2.0 / 3.0));
         assert!((left - expected).abs() < 1e-5, "alpha {alpha}: {left} for {expected}");
@@ -90,8 +90,8 @@ fn a_tint_past_one_reflects_no_more_than_the_strength() {
     let material = Material { specular: 0.5, specular_color: Vec3::splat(60.0), roughness: 0.4, ..plain() };
     let floor = Thing::rectangle([1.5, 1.5], material).placed(facing(ORIGIN, UP));
     let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
-    let settings = Settings { lights_visible: false, ..Settings::default() };
-    hold(&Stage::new(vec![floor, window], looking([0.2, 0.9, 2.4], ORIGIN)), &settings);
+    let edits = Edits { lights_visible: Some(false), ..Edits::default() };
+    hold(&Stage::new(vec![floor, window], looking([0.2, 0.9, 2.4], ORIGIN)), &edits);
 }
 
 #[test]
@@ -100,9 +100,9 @@ fn instances_of_one_mesh_are_all_drawn() {
     let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
     let things = vec![tile(-0.7), tile(0.0), tile(0.7), window];
     let stage = Stage::new(things, looking([0.2, 0.9, 2.4], ORIGIN));
-    let (table, settings) = (SheenTable::embedded(), Settings { lights_visible: false, ..Settings::default() });
+    let (table, edits) = (SheenTable::embedded(), Edits { lights_visible: Some(false), ..Edits::default() });
     let mut scene = stage.scene();
     scene.instances.iter_mut().take(3).for_each(|instance| instance.mesh = 0);
-    let picture = linear(&scene, &table, &settings, SIZE);
-    differences(&picture, &Truth::new(&stage, &table, &settings, SIZE)).unwrap_or_else(|said| panic!("{said}"));
+    let picture = linear(&scene, &table, &edits, SIZE);
+    differences(&picture, &Truth::new(&stage, &table, &edits, SIZE)).unwrap_or_else(|said| panic!("{said}"));
 }

@@ -1,7 +1,7 @@
 //! What the binary does when all is well.
 
 use velour::picture::{DisplayImage, LinearImage, ToneCurve};
-use velour::scene::{Settings, gltf};
+use velour::scene::{Edits, gltf};
 use velour::table::{GgxTable, SheenTable, SlabTable};
 
 use super::compare::{changed, differences, linear, sheen_alone};
@@ -23,13 +23,13 @@ fn png(bench: &Bench, name: &str) -> DisplayImage {
 }
 
 /// Renders the stage by the binary with these flags beside `MEASURED`, and holds the picture against the truth.
-fn hold(stage: &Stage, flags: &str, table: &SheenTable, settings: &Settings) {
+fn hold(stage: &Stage, flags: &str, table: &SheenTable, edits: &Edits) {
     let bench = Bench::new();
     bench.put("stage.glb", stage.glb());
     bench.put("table.csv", table.to_csv(&["of a test".to_owned()]));
     bench.put("table.dds", table.to_dds());
     bench.run(&format!("render stage.glb -o out.exr {MEASURED} {flags}"));
-    differences(&exr(&bench, "out.exr"), &Truth::new(stage, table, settings, [96, 64]))
+    differences(&exr(&bench, "out.exr"), &Truth::new(stage, table, edits, [96, 64]))
         .unwrap_or_else(|said| panic!("{flags}: {said}"));
 }
 

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::{Gpu, Offscreen, device};
-use velour::scene::{Lobes, Overrides, Scene, Settings, gltf};
+use velour::scene::{Drawn, Edits, Lobes, MaterialEdits, Scene, gltf};
 use velour::table::SheenTable;
 
 use super::reference;
@@ -33,33 +33,34 @@ const EDGE: f64 = 0.05;
 /// The share of a picture that may be left out as edges. Stages are made of a few large things.
 const EDGES_MOST: f64 = 0.05;
 
-/// Settings with another sheen for every material.
-pub fn changed(alpha: Option<f32>, sheen_color: Option<Vec3>, settings: Settings) -> Settings {
-    Settings { overrides: Overrides { alpha, sheen_color, ..Overrides::default() }, ..settings }
+/// Edits with another sheen for every material that has one, or for all where none has one.
+pub fn changed(alpha: Option<f32>, sheen_color: Option<Vec3>, edits: Edits) -> Edits {
+    Edits { every_material: MaterialEdits { alpha, sheen_color, ..MaterialEdits::default() }, ..edits }
 }
 
 /// The sheen alone, under lights that are not drawn.
-pub fn sheen_alone() -> Settings {
+pub fn sheen_alone() -> Edits {
     let lobes = Lobes { sheen: true, diffuse: false, specular: false, emission: false };
-    Settings { lobes, lights_visible: false, ..Settings::default() }
+    Edits { lobes: Some(lobes), lights_visible: Some(false), ..Edits::default() }
 }
 
-pub fn linear(scene: &Scene, table: &SheenTable, settings: &Settings, size: [u32; 2]) -> LinearImage {
-    let mut renderer = Offscreen::for_linear(&GPU, 1, table, scene, settings).unwrap();
-    GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, settings)).unwrap()
+pub fn linear(scene: &Scene, table: &SheenTable, edits: &Edits, size: [u32; 2]) -> LinearImage {
+    let drawn = Drawn::new(scene, edits);
+    let mut renderer = Offscreen::for_linear(&GPU, 1, table, &drawn).unwrap();
+    GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }
 
 /// Renders the stage, both as a scene made here and as a file read in, and holds both pictures against the truth and
 /// the reference.
-pub fn hold(stage: &Stage, settings: &Settings) {
+pub fn hold(stage: &Stage, edits: &Edits) {
     let table = SheenTable::embedded();
-    let truth = Truth::new(stage, &table, settings, SIZE);
+    let truth = Truth::new(stage, &table, edits, SIZE);
     let read = gltf::from_slice(&stage.glb(), "stage.glb").unwrap();
     assert_eq!(read.notices, [""; 0]);
     for (way, scene) in [("made", stage.scene()), ("read", read)] {
-        let picture = linear(&scene, &table, settings, SIZE);
+        let picture = linear(&scene, &table, edits, SIZE);
         differences(&picture, &truth).unwrap_or_else(|said| panic!("the scene {way}: {said}"));
-        reference::hold(&picture, &scene, &table, settings);
+        reference::hold(&picture, &scene, &table, edits);
     }
 }
 

@@ -6,10 +6,9 @@
 
 use std::path::{Path, PathBuf};
 
-use velour::picture::{DisplayImage, ToneCurve};
+use velour::picture::DisplayImage;
 use velour::renderer::Offscreen;
-use velour::scene::{Settings, gltf};
-use velour::table::SheenTable;
+use velour::scene::{Edits, gltf};
 
 use super::compare::GPU;
 
@@ -31,9 +30,7 @@ fn golden(name: &str) -> PathBuf {
 
 fn render(name: &str) -> DisplayImage {
     let scene = gltf::load(&root().join("assets").join(name).with_extension("glb")).unwrap();
-    let settings = Settings::default();
-    let mut renderer = Offscreen::for_display(&GPU, 4, &SheenTable::embedded(), &scene, &settings).unwrap();
-    GPU.block_on(renderer.display(&GPU, &scene.cameras[0], SIZE, &settings, ToneCurve::default())).unwrap()
+    GPU.block_on(Offscreen::screenshot(&GPU, &scene, &Edits::default(), SIZE)).unwrap()
 }
 
 /// How two pictures differ, where that is more than drivers do.

@@ -1,7 +1,7 @@
 //! Lights of all kinds: many, without extent, and those that are skipped.
 
 use glam::Vec3;
-use velour::scene::{Material, Projection, PunctualKind, PunctualLight, Settings};
+use velour::scene::{Drawn, Edits, Light, LightEdits, Material, Projection, PunctualKind, PunctualLight};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, hold, linear, sheen_alone};
@@ -19,8 +19,8 @@ fn floor() -> Thing {
     Thing::rectangle([1.5, 1.5], cloth()).placed(facing(ORIGIN, UP))
 }
 
-fn unseen() -> Settings {
-    Settings { lights_visible: false, ..Settings::default() }
+fn unseen() -> Edits {
+    Edits { lights_visible: Some(false), ..Edits::default() }
 }
 
 #[test]
@@ -41,9 +41,9 @@ fn lights_without_extent_shine_through_the_same_lobes() {
     ] {
         let mut stage = Stage::new(vec![floor()], looking([0.4, 1.1, 2.6], ORIGIN));
         stage.punctual.push(light(kind));
-        let (table, settings) = (SheenTable::embedded(), unseen());
-        let picture = linear(&stage.scene(), &table, &settings, SIZE);
-        differences(&picture, &Truth::new(&stage, &table, &settings, SIZE))
+        let (table, edits) = (SheenTable::embedded(), unseen());
+        let picture = linear(&stage.scene(), &table, &edits, SIZE);
+        differences(&picture, &Truth::new(&stage, &table, &edits, SIZE))
             .unwrap_or_else(|said| panic!("{kind:?}: {said}"));
     }
 }
@@ -77,17 +77,20 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
         let things = [vec![floor()], panels(count)].concat();
         Stage::new(things, looking([0.4, 1.1, 2.6], ORIGIN)).scene()
     };
-    let (table, settings) = (SheenTable::embedded(), unseen());
+    let table = SheenTable::embedded();
     let mut scene = stage(12);
-    let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
+    let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &unseen())).unwrap();
     let picture = |offscreen: &mut Offscreen, scene: &velour::scene::Scene| {
-        GPU.block_on(offscreen.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap()
+        GPU.block_on(offscreen.linear(&GPU, &scene.cameras[0], SIZE, &unseen().settings())).unwrap()
     };
     let before = picture(&mut offscreen, &scene);
-    for index in 0..scene.lights.len() {
-        scene.move_light(index, Vec3::new(0.1, 0.2, -0.1));
-        scene.lights[index].radiance *= 0.5;
-    }
+    let moved = |light: &Light| LightEdits {
+        position: Some(light.position() + Vec3::new(0.1, 0.2, -0.1)),
+        strength: Some(0.5),
+        ..LightEdits::default()
+    };
+    let lights = scene.lights.iter().map(moved).enumerate().collect();
+    let edits = Edits { lights, ..unseen() };
     scene.punctual_lights.push(PunctualLight {
         name: String::new(),
         kind: PunctualKind::Directional,
@@ -95,10 +98,10 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
         position: Vec3::ZERO,
         direction: Vec3::NEG_Y,
     });
-    offscreen.update(&GPU, &scene, &settings).unwrap();
+    offscreen.update(&GPU, &Drawn::new(&scene, &edits)).unwrap();
     let after = picture(&mut offscreen, &scene);
     assert_ne!(before, after);
-    let mut anew = Offscreen::for_linear(&GPU, 1, &table, &scene, &settings).unwrap();
+    let mut anew = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &edits)).unwrap();
     assert_eq!(after, picture(&mut anew, &scene));
 }
 

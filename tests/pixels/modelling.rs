@@ -3,7 +3,7 @@
 
 use glam::{Mat4, Vec3};
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
-use velour::scene::{Layering, Lobes, Material, Overrides, Settings, Sheen, SheenModel};
+use velour::scene::{Drawn, Edits, Layering, Lobes, Material, MaterialEdits, Sheen, SheenModel};
 use velour::table::SheenTable;
 
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
@@ -34,13 +34,15 @@ pub fn ball(material: Material, columns: u32) -> Thing {
 }
 
 /// A ball under a window, 60 degrees from the view.
-fn pictured(base: &Material, alpha: f32, overrides: Overrides, lobes: Lobes, samples: u64) -> Picture {
+fn pictured(base: &Material, alpha: f32, overrides: MaterialEdits, lobes: Lobes, samples: u64) -> Picture {
     let material = Material { sheen: Some(Sheen::new(Vec3::ONE, alpha)), ..base.clone() };
     let window = Thing::rectangle([1.2, 1.2], glow([4.0; 3])).placed(facing([3.46, 0.0, 2.0], [0.0; 3]));
     let scene = Stage::new(vec![ball(material, 64), window], looking([0.0, 0.0, 3.5], [0.0; 3])).scene();
-    let settings = Settings { overrides, lobes, lights_visible: false, ..Settings::default() };
+    let edits =
+        Edits { every_material: overrides, lobes: Some(lobes), lights_visible: Some(false), ..Edits::default() };
     let options = Options { max_bounces: 0, shadows: false, filter: Filter::Centre, specular: SpecularModel::Ggx };
-    let reference = Reference::new(&scene, &settings, &SheenTable::embedded(), options).unwrap();
+    let drawn = Drawn::new(&scene, &edits);
+    let reference = Reference::new(&drawn, &SheenTable::embedded(), options).unwrap();
     reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
 }
 
@@ -61,7 +63,7 @@ const FIT: [(f32, f64); 5] = [(0.1, 0.145), (0.25, 0.121), (0.5, 0.041), (0.75, 
 fn the_fit_is_as_far_from_the_slab_as_is_said() {
     let sheen = Lobes { sheen: true, diffuse: false, specular: false, emission: false };
     let of = |alpha, model| {
-        let overrides = Overrides { sheen_model: Some(model), ..Overrides::default() };
+        let overrides = MaterialEdits { sheen_model: Some(model), ..MaterialEdits::default() };
         pictured(&plain(), alpha, overrides, sheen, 256)
     };
     let found = FIT.map(|(alpha, _)| apart(&of(alpha, SheenModel::Ltc), &of(alpha, SheenModel::Slab)));
@@ -105,8 +107,11 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
         assert!(page.contains(&row), "docs/accuracy.md does not say '{row}'");
         for (column, alpha) in [0.25, 0.5, 1.0].into_iter().enumerate() {
             let of = |layering, samples| {
-                let overrides =
-                    Overrides { sheen_model: Some(SheenModel::Slab), layering: Some(layering), ..Overrides::default() };
+                let overrides = MaterialEdits {
+                    sheen_model: Some(SheenModel::Slab),
+                    layering: Some(layering),
+                    ..MaterialEdits::default()
+                };
                 pictured(&base, alpha, overrides, Lobes::default(), samples)
             };
             let truth = of(Layering::Walk, 512);

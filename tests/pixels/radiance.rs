@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Quat, Vec3};
 use velour::picture::LinearImage;
-use velour::scene::{Lobes, Material, Projection, Settings};
+use velour::scene::{Edits, Lobes, Material, Projection};
 use velour::table::SheenTable;
 
 use super::compare::{SIZE, changed, differences, hold, linear, sheen_alone};
@@ -161,7 +161,7 @@ fn lobes_are_summed_as_asked() {
     for bits in 1..8 {
         let lobes = Lobes { sheen: bits & 1 != 0, diffuse: bits & 2 != 0, specular: false, emission: bits & 4 != 0 };
         let lights_visible = bits & 4 != 0;
-        hold(&stage, &Settings { lobes, lights_visible, ..Settings::default() });
+        hold(&stage, &Edits { lobes: Some(lobes), lights_visible: Some(lights_visible), ..Edits::default() });
     }
 }
 
@@ -169,7 +169,7 @@ fn lobes_are_summed_as_asked() {
 fn a_bare_base_is_not_weakened() {
     let mut bare = cloth();
     bare.sheen = None;
-    hold(&Stage::new(vec![floor(bare), window()], eye()), &Settings::default());
+    hold(&Stage::new(vec![floor(bare), window()], eye()), &Edits::default());
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn hidden_lights_shine_and_hide_nothing() {
         light.material.double_sided = double_sided;
         let stage = Stage::new(vec![floor(cloth()), light], eye());
         for lights_visible in [false, true] {
-            hold(&stage, &Settings { lights_visible, ..Settings::default() });
+            hold(&stage, &Edits { lights_visible: Some(lights_visible), ..Edits::default() });
         }
     }
 }
@@ -191,9 +191,9 @@ fn one_sheen_may_be_given_to_all() {
     bare.sheen = None;
     let stage = Stage::new(vec![floor(cloth()), bulge(bare, 1.0), window()], eye());
     let color = Some(Vec3::new(0.1, 0.9, 0.4));
-    hold(&stage, &changed(Some(0.7), None, Settings::default()));
-    hold(&stage, &changed(None, color, Settings::default()));
-    hold(&stage, &changed(Some(0.0), color, Settings::default()));
+    hold(&stage, &changed(Some(0.7), None, Edits::default()));
+    hold(&stage, &changed(None, color, Edits::default()));
+    hold(&stage, &changed(Some(0.0), color, Edits::default()));
 }
 
 /// A table as unlike the shipped one as possible: every node has its own numbers, and the sides differ.
@@ -209,20 +209,20 @@ fn odd_table() -> SheenTable {
 #[test]
 fn another_table_gives_its_own_sum() {
     let table = odd_table();
-    let settings = sheen_alone();
+    let edits = sheen_alone();
     let stage = Stage::new(vec![floor(velvet([0.9, 0.5, 0.2], 0.63)), window()], eye());
-    let picture = linear(&stage.scene(), &table, &settings, SIZE);
-    differences(&picture, &Truth::new(&stage, &table, &settings, SIZE)).unwrap();
+    let picture = linear(&stage.scene(), &table, &edits, SIZE);
+    differences(&picture, &Truth::new(&stage, &table, &edits, SIZE)).unwrap();
     let shipped = SheenTable::embedded();
-    assert!(differences(&picture, &Truth::new(&stage, &shipped, &settings, SIZE)).is_err());
+    assert!(differences(&picture, &Truth::new(&stage, &shipped, &edits, SIZE)).is_err());
 }
 
 #[test]
 fn wrong_pictures_are_rejected() {
-    let (table, settings) = (SheenTable::embedded(), sheen_alone());
+    let (table, edits) = (SheenTable::embedded(), sheen_alone());
     let stage = Stage::new(vec![floor(cloth()), window()], eye());
-    let truth = Truth::new(&stage, &table, &settings, SIZE);
-    let right = linear(&stage.scene(), &table, &settings, SIZE);
+    let truth = Truth::new(&stage, &table, &edits, SIZE);
+    let right = linear(&stage.scene(), &table, &edits, SIZE);
     differences(&right, &truth).unwrap();
     let middle = (SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize;
     let changed = |change: &dyn Fn(&mut LinearImage)| {
@@ -239,6 +239,6 @@ fn wrong_pictures_are_rejected() {
         Stage::new(vec![floor(velvet([0.9, 0.5, 0.21], 0.4)), window()], eye()),
         Stage::new(vec![floor(cloth()), window().placed(facing([1.0, 1.21, -1.0], ORIGIN))], eye()),
     ] {
-        assert!(differences(&right, &Truth::new(&other, &table, &settings, SIZE)).is_err());
+        assert!(differences(&right, &Truth::new(&other, &table, &edits, SIZE)).is_err());
     }
 }

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::reference::{Effort, Filter, Options, Picture, Reference, SpecularModel};
-use velour::scene::{Layering, Material, Overrides, Scene, Settings, Sheen, SheenModel};
+use velour::scene::{Drawn, Edits, Layering, Material, MaterialEdits, Scene, Sheen, SheenModel};
 use velour::table::SheenTable;
 
 use super::compare::{CORNER_SHIFT, SIZE, linear, moves_corners, sheen_alone};
@@ -23,8 +23,9 @@ const OF_GREATEST: f64 = 1e-5;
 /// batches, and edges.
 const MOST_OFF: f64 = 0.01;
 
-pub fn traced(scene: &Scene, table: &SheenTable, settings: &Settings, options: Options, samples: u64) -> Picture {
-    let reference = Reference::new(scene, settings, table, options).unwrap();
+pub fn traced(scene: &Scene, table: &SheenTable, edits: &Edits, options: Options, samples: u64) -> Picture {
+    let drawn = Drawn::new(scene, edits);
+    let reference = Reference::new(&drawn, table, options).unwrap();
     reference.render(&scene.cameras[0], SIZE, Effort { samples, seed: 1 }, |_, _| true).unwrap()
 }
 
@@ -81,8 +82,8 @@ pub fn differences(picture: &LinearImage, reference: &Picture) -> Result<(), Str
 }
 
 /// Holds a picture of real time to the reference's of the same scene.
-pub fn hold(picture: &LinearImage, scene: &Scene, table: &SheenTable, settings: &Settings) {
-    let reference = traced(scene, table, settings, REAL_TIME, 64);
+pub fn hold(picture: &LinearImage, scene: &Scene, table: &SheenTable, edits: &Edits) {
+    let reference = traced(scene, table, edits, REAL_TIME, 64);
     differences(picture, &reference).unwrap_or_else(|said| panic!("against the reference: {said}"));
 }
 
@@ -95,17 +96,17 @@ fn stage(alpha: f32) -> Stage {
     Stage::new(vec![floor, window], looking([0.4, 1.1, 2.6], ORIGIN))
 }
 
-fn with_model(model: SheenModel) -> Settings {
-    let overrides = Overrides { sheen_model: Some(model), ..Overrides::default() };
-    Settings { overrides, ..sheen_alone() }
+fn with_model(model: SheenModel) -> Edits {
+    let overrides = MaterialEdits { sheen_model: Some(model), ..MaterialEdits::default() };
+    Edits { every_material: overrides, ..sheen_alone() }
 }
 
 #[test]
 fn wrong_pictures_are_rejected() {
-    let (table, settings) = (SheenTable::embedded(), sheen_alone());
+    let (table, edits) = (SheenTable::embedded(), sheen_alone());
     let scene = stage(0.4).scene();
-    let reference = traced(&scene, &table, &settings, REAL_TIME, 64);
-    let right = linear(&scene, &table, &settings, SIZE);
+    let reference = traced(&scene, &table, &edits, REAL_TIME, 64);
+    let right = linear(&scene, &table, &edits, SIZE);
     differences(&right, &reference).unwrap();
     let changed = |change: &dyn Fn(usize, &mut [f32; 3])| {
         let mut picture = right.clone();
@@ -120,18 +121,19 @@ fn wrong_pictures_are_rejected() {
     let mut shifted = right.clone();
     shifted.pixels.rotate_right(1);
     assert!(differences(&shifted, &reference).is_err());
-    let other = linear(&stage(0.42).scene(), &table, &settings, SIZE);
+    let other = linear(&stage(0.42).scene(), &table, &edits, SIZE);
     assert!(differences(&other, &reference).is_err());
 }
 
 #[test]
 fn a_seed_gives_the_same_picture_on_any_number_of_threads() {
-    let (table, settings) = (SheenTable::embedded(), with_model(SheenModel::Walk));
+    let (table, edits) = (SheenTable::embedded(), with_model(SheenModel::Walk));
     let scene = stage(0.5).scene();
     let on = |threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let reference = Reference::new(&scene, &settings, &table, Options { max_bounces: 2, ..Options::default() });
+            let drawn = Drawn::new(&scene, &edits);
+            let reference = Reference::new(&drawn, &table, Options { max_bounces: 2, ..Options::default() });
             let effort = Effort { samples: 3, seed };
             reference.unwrap().render(&scene.cameras[0], [50, 30], effort, |_, _| true).unwrap().radiance
         })
@@ -142,9 +144,10 @@ fn a_seed_gives_the_same_picture_on_any_number_of_threads() {
 
 #[test]
 fn a_picture_that_is_asked_to_end_is_made_of_whole_batches() {
-    let (table, settings) = (SheenTable::embedded(), sheen_alone());
+    let (table, edits) = (SheenTable::embedded(), sheen_alone());
     let scene = stage(0.5).scene();
-    let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
+    let drawn = Drawn::new(&scene, &edits);
+    let reference = Reference::new(&drawn, &table, Options::default()).unwrap();
     let render = |samples: u64, stop_after: u64| {
         let effort = Effort { samples, seed: 0 };
         reference.render(&scene.cameras[0], [40, 20], effort, |done, _| done < stop_after).unwrap()
@@ -174,9 +177,10 @@ fn whole_batches(reference: &Reference, scene: &Scene, samples: u64) -> LinearIm
 /// The estimated errors are those that other seeds show.
 #[test]
 fn errors_are_what_they_are_estimated_to_be() {
-    let (table, settings) = (SheenTable::embedded(), with_model(SheenModel::Slab));
+    let (table, edits) = (SheenTable::embedded(), with_model(SheenModel::Slab));
     let scene = stage(0.3).scene();
-    let reference = Reference::new(&scene, &settings, &table, Options::default()).unwrap();
+    let drawn = Drawn::new(&scene, &edits);
+    let reference = Reference::new(&drawn, &table, Options::default()).unwrap();
     let render = |samples: u64, seed: u64| {
         reference.render(&scene.cameras[0], [24, 16], Effort { samples, seed }, |_, _| true).unwrap()
     };
@@ -205,16 +209,16 @@ fn errors_are_what_they_are_estimated_to_be() {
 /// Light from a window past a screen with an edge: shadows are where straight lines say.
 #[test]
 fn shadows_are_where_straight_lines_say() {
-    let (table, settings) = (SheenTable::embedded(), sheen_alone());
+    let (table, edits) = (SheenTable::embedded(), sheen_alone());
     let options = Options { shadows: true, ..REAL_TIME };
     let mut stage = stage(0.5);
     // Wholly below the window and wholly off its way.
     let plate =
         |place, half| Thing::rectangle([half; 2], velvet([0.0; 3], 0.5)).placed(facing(place, [1.0, 1.2, -1.0]));
-    let open = traced(&stage.scene(), &table, &settings, options, 64);
+    let open = traced(&stage.scene(), &table, &edits, options, 64);
     stage.things.push(plate([0.9, 1.08, -0.9], 2.0));
-    let covered = traced(&stage.scene(), &table, &settings, options, 64);
-    let bare = linear(&self::stage(0.5).scene(), &table, &settings, SIZE);
+    let covered = traced(&stage.scene(), &table, &edits, options, 64);
+    let bare = linear(&self::stage(0.5).scene(), &table, &edits, SIZE);
     differences(&bare, &open).unwrap();
     assert!(mean(&covered.radiance) < 0.02 * mean(&open.radiance));
 }
@@ -262,11 +266,11 @@ fn the_walk_through_layer_and_base_loses_and_makes_no_light() {
         stage.things.truncate(1);
         let material = &mut stage.things[0].material;
         material.base_color = Vec3::ONE;
-        material.sheen = Some(Sheen { color: Vec3::ONE, roughness: alpha, weight });
-        let overrides = Overrides { layering: Some(Layering::Walk), ..Overrides::default() };
+        material.sheen = Some(Sheen { weight, ..Sheen::new(Vec3::ONE, alpha) });
+        let overrides = MaterialEdits { layering: Some(Layering::Walk), ..MaterialEdits::default() };
         for shadows in [true, false] {
-            let settings = Settings { ambient: Vec3::ONE, overrides, ..Settings::default() };
-            let picture = traced(&stage.scene(), &table, &settings, Options { shadows, ..REAL_TIME }, 16);
+            let edits = Edits { ambient: Some(Vec3::ONE), every_material: overrides, ..Edits::default() };
+            let picture = traced(&stage.scene(), &table, &edits, Options { shadows, ..REAL_TIME }, 16);
             let lit: Vec<f32> =
                 picture.radiance.pixels.iter().map(|pixel| pixel[1]).filter(|&value| value > 0.0).collect();
             assert!(lit.len() > 1000);
@@ -287,7 +291,7 @@ fn bounces_add_up_to_what_a_closed_box_has() {
     let scene = Stage::new(walls.to_vec(), looking([0.1, 0.2, 0.3], [0.5, -0.4, -0.9])).scene();
     for (max_bounces, expected) in [(0, 1.5), (1, 1.75), (4, 2.0 - 0.5_f64.powi(5))] {
         let options = Options { max_bounces, shadows: true, ..REAL_TIME };
-        let picture = traced(&scene, &table, &Settings::default(), options, 32);
+        let picture = traced(&scene, &table, &Edits::default(), options, 32);
         assert!((mean(&picture.radiance) / expected - 1.0).abs() < 1e-3, "{max_bounces}: {}", mean(&picture.radiance));
     }
 }
@@ -296,18 +300,18 @@ fn bounces_add_up_to_what_a_closed_box_has() {
 #[test]
 fn the_environment_is_shadowed() {
     let table = SheenTable::embedded();
-    let settings = Settings { ambient: Vec3::ONE, ..Settings::default() };
+    let edits = Edits { ambient: Some(Vec3::ONE), ..Edits::default() };
     let grey = Material { base_color: Vec3::splat(0.5), ..plain() };
     let floor = Thing::rectangle([1.5, 1.5], grey.clone()).placed(facing(ORIGIN, UP));
     let open = Stage::new(vec![floor.clone()], looking([0.4, 1.1, 2.6], ORIGIN));
     let options = Options { shadows: true, ..REAL_TIME };
-    let picture = traced(&open.scene(), &table, &settings, options, 16);
+    let picture = traced(&open.scene(), &table, &edits, options, 16);
     let lit = picture.radiance.pixels.iter().map(|pixel| pixel[0]).filter(|&value| value > 0.0);
     assert!(lit.clone().count() > 1000 && lit.clone().all(|value| (value - 0.5).abs() < 1e-6));
     let mut roofed = open;
     let roof = Thing::rectangle([300.0, 300.0], grey).placed(facing([0.0, 3.0, 0.0], ORIGIN));
     roofed.things.push(roof);
-    let picture = traced(&roofed.scene(), &table, &settings, options, 64);
+    let picture = traced(&roofed.scene(), &table, &edits, options, 64);
     let floor_pixels = &picture.radiance.pixels[96 * 40..];
     let mean = floor_pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / floor_pixels.len() as f64;
     assert!(mean < 0.01, "{mean}");
@@ -316,18 +320,17 @@ fn the_environment_is_shadowed() {
 /// Microfacets themselves, of a colour for each channel: near their fit, but not equal to it; and they make no light.
 #[test]
 fn microfacets_are_near_their_fit() {
-    let (table, settings) = (SheenTable::embedded(), Settings { lights_visible: false, ..Settings::default() });
+    let (table, edits) = (SheenTable::embedded(), Edits { lights_visible: Some(false), ..Edits::default() });
     let mut stage = stage(0.5);
     stage.things[0].material = Material { metallic: 1.0, roughness: 0.5, ..velvet([0.0; 3], 0.5) };
-    let of =
-        |specular, settings: &Settings| traced(&stage.scene(), &table, settings, Options { specular, ..REAL_TIME }, 64);
-    let (fit, facets) = (of(SpecularModel::Ltc, &settings), of(SpecularModel::Ggx, &settings));
+    let of = |specular, edits: &Edits| traced(&stage.scene(), &table, edits, Options { specular, ..REAL_TIME }, 64);
+    let (fit, facets) = (of(SpecularModel::Ltc, &edits), of(SpecularModel::Ggx, &edits));
     let [near, truth] = [&fit, &facets].map(|picture| mean(&picture.radiance));
     assert!((near / truth - 1.0).abs() < 0.15, "{near} {truth}");
     assert!(differences(&fit.radiance, &facets).is_err());
     // Of a uniform environment about the share that is the base's colour comes back.
     stage.things.truncate(1);
-    let furnace = Settings { ambient: Vec3::ONE, ..settings };
+    let furnace = Edits { ambient: Some(Vec3::ONE), ..edits };
     let reference = traced(&stage.scene(), &table, &furnace, Options { specular: SpecularModel::Ggx, ..REAL_TIME }, 16);
     let base = Vec3::new(0.3, 0.6, 0.9);
     let lit = reference.radiance.pixels.iter().filter(|pixel| pixel[0] > 0.0).map(|pixel| Vec3::from(*pixel));
@@ -339,14 +342,14 @@ fn microfacets_are_near_their_fit() {
 /// light.
 #[test]
 fn a_round_thing_does_not_shadow_itself_nor_does_its_light() {
-    let (table, settings) = (SheenTable::embedded(), Settings::default());
+    let (table, edits) = (SheenTable::embedded(), Edits::default());
     for columns in [12, 48] {
         for distance in [1.1, 2.0, 5.0] {
             let ball = super::modelling::ball(velvet([0.9, 0.5, 0.2], 0.5), columns);
             let window =
                 Thing::rectangle([0.3, 0.3], glow([4.0, 3.0, 2.0])).placed(facing([distance, 0.2, 0.1], ORIGIN));
             let scene = Stage::new(vec![ball, window], looking([2.5, 0.5, 3.5], ORIGIN)).scene();
-            let of = |shadows| traced(&scene, &table, &settings, Options { shadows, ..REAL_TIME }, 16);
+            let of = |shadows| traced(&scene, &table, &edits, Options { shadows, ..REAL_TIME }, 16);
             let (with, without) = (of(true), of(false));
             let [with, without] = [&with, &without].map(|picture| mean(&picture.radiance));
             assert!((with / without - 1.0).abs() < 0.02, "{columns} columns, {distance} m: {with} {without}");
@@ -364,8 +367,8 @@ fn the_walk_goes_on_where_the_view_is_along_the_surface() {
     stage.things[0].normals = vec![Vec3::new(0.0, 0.9, 0.4).normalize(); 4];
     let scene = stage.scene();
     let of = |model| {
-        let settings = with_model(model);
-        mean(&traced(&scene, &table, &settings, REAL_TIME, 256).radiance)
+        let edits = with_model(model);
+        mean(&traced(&scene, &table, &edits, REAL_TIME, 256).radiance)
     };
     let (walk, slab) = (of(SheenModel::Walk), of(SheenModel::Slab));
     assert!(slab > 1e-5 && (walk / slab - 1.0).abs() < 0.05, "{walk} {slab}");

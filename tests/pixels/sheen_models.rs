@@ -6,7 +6,7 @@ use velour::picture::LinearImage;
 use velour::reference::{Filter, Options, Picture};
 use velour::renderer::Offscreen;
 use velour::scene::{
-    Layering, Lobes, Material, Overrides, PunctualKind, PunctualLight, Scene, Settings, Sheen, SheenModel,
+    Drawn, Edits, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Scene, Sheen, SheenModel,
 };
 use velour::table::SheenTable;
 
@@ -57,20 +57,20 @@ fn differences(picture: &LinearImage, reference: &Picture) -> Result<(), String>
     Ok(())
 }
 
-fn with(model: SheenModel, settings: &Settings) -> Settings {
-    let overrides = Overrides { sheen_model: Some(model), ..settings.overrides };
-    Settings { overrides, ..settings.clone() }
+fn with(model: SheenModel, edits: &Edits) -> Edits {
+    let overrides = MaterialEdits { sheen_model: Some(model), ..edits.every_material };
+    Edits { every_material: overrides, ..edits.clone() }
 }
 
 /// Both renderers' pictures.
-fn pictures(scene: &Scene, settings: &Settings) -> (LinearImage, Picture) {
+fn pictures(scene: &Scene, edits: &Edits) -> (LinearImage, Picture) {
     let table = SheenTable::embedded();
     let options = Options { shadows: false, filter: Filter::Centre, ..Options::default() };
-    (linear(scene, &table, settings, SIZE), traced(scene, &table, settings, options, SAMPLES))
+    (linear(scene, &table, edits, SIZE), traced(scene, &table, edits, options, SAMPLES))
 }
 
-fn hold(stage: &Stage, settings: &Settings, about: &str) {
-    let (picture, reference) = pictures(&stage.scene(), settings);
+fn hold(stage: &Stage, edits: &Edits, about: &str) {
+    let (picture, reference) = pictures(&stage.scene(), edits);
     differences(&picture, &reference).unwrap_or_else(|said| panic!("{about}: {said}"));
 }
 
@@ -131,7 +131,7 @@ fn models_lie_on_the_base_as_they_are_told() {
     let lobes = Lobes { emission: false, ..Lobes::default() };
     for model in MODELS {
         for (layering, alpha) in [(Layering::Gltf, 0.05), (Layering::OpenPbr, 0.5)] {
-            let sheen = Some(Sheen { color: Vec3::new(1.0, 0.7, 0.4), roughness: alpha, weight: 0.9 });
+            let sheen = Some(Sheen { weight: 0.9, ..Sheen::new(Vec3::new(1.0, 0.7, 0.4), alpha) });
             let base_color = Vec3::new(0.8, 0.5, 0.3);
             let material = Material { base_color, specular: 0.9, roughness: 0.5, sheen, ..plain() };
             let mut stage = stage(material, vec![window()]);
@@ -142,10 +142,16 @@ fn models_lie_on_the_base_as_they_are_told() {
                 position: Vec3::new(-0.5, 0.8, -0.6),
                 direction: Vec3::NEG_Y,
             });
-            let overrides = Overrides { layering: Some(layering), ..Overrides::default() };
+            let overrides = MaterialEdits { layering: Some(layering), ..MaterialEdits::default() };
             let ambient = Vec3::new(0.2, 0.3, 0.4);
-            let settings = Settings { lobes, lights_visible: false, ambient, overrides, ..Settings::default() };
-            hold(&stage, &with(model, &settings), &format!("{model:?}, {layering:?}, alpha {alpha}"));
+            let edits = Edits {
+                lobes: Some(lobes),
+                lights_visible: Some(false),
+                ambient: Some(ambient),
+                every_material: overrides,
+                ..Edits::default()
+            };
+            hold(&stage, &with(model, &edits), &format!("{model:?}, {layering:?}, alpha {alpha}"));
         }
     }
 }
@@ -158,8 +164,8 @@ fn albedos_are_the_references() {
             let mut stage = stage(velvet([1.0; 3], alpha), Vec::new());
             // Not lower: drivers move corners by up to 1/32 of a pixel (see `compare`), and steep albedos with them.
             stage.world_from_camera = looking([0.0, 0.5, 1.8], ORIGIN);
-            let settings = with(model, &Settings { ambient: Vec3::ONE, ..sheen_alone() });
-            hold(&stage, &settings, &format!("{model:?}, alpha {alpha}"));
+            let edits = with(model, &Edits { ambient: Some(Vec3::ONE), ..sheen_alone() });
+            hold(&stage, &edits, &format!("{model:?}, alpha {alpha}"));
         }
     }
 }
@@ -171,10 +177,10 @@ fn materials_of_one_scene_have_models_of_their_own() {
     };
     let things = vec![half(-0.75, 0.3), half(0.75, 0.5), window()];
     let stage = Stage::new(things, looking([0.4, 1.1, 2.6], ORIGIN));
-    let own = |model| Overrides { sheen_model: Some(model), ..Overrides::default() };
+    let own = |model| MaterialEdits { sheen_model: Some(model), ..MaterialEdits::default() };
     for (left, right) in [(SheenModel::ContyKulla, SheenModel::Patry), (SheenModel::Ltc, SheenModel::Burley)] {
-        let material_overrides = [(0, own(left)), (1, own(right))].into();
-        hold(&stage, &Settings { material_overrides, ..sheen_alone() }, &format!("{left:?} beside {right:?}"));
+        let materials = [(0, own(left)), (1, own(right))].into();
+        hold(&stage, &Edits { materials, ..sheen_alone() }, &format!("{left:?} beside {right:?}"));
     }
 }
 
@@ -204,11 +210,12 @@ fn lights_that_are_near_are_roughly_right() {
 #[test]
 fn a_change_of_model_is_taken_over() {
     let (table, scene) = (SheenTable::embedded(), stage(velvet([0.9, 0.5, 0.2], 0.4), vec![window()]).scene());
-    let mut renderer = Offscreen::for_linear(&GPU, 1, &table, &scene, &sheen_alone()).unwrap();
+    let mut renderer = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &sheen_alone())).unwrap();
     for model in [SheenModel::Patry, SheenModel::Ltc, SheenModel::Burley] {
-        let settings = with(model, &sheen_alone());
-        renderer.update(&GPU, &scene, &settings).unwrap();
-        let picture = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap();
-        assert_eq!(picture.pixels, linear(&scene, &table, &settings, SIZE).pixels, "{model:?}");
+        let edits = with(model, &sheen_alone());
+        let drawn = Drawn::new(&scene, &edits);
+        renderer.update(&GPU, &drawn).unwrap();
+        let picture = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap();
+        assert_eq!(picture.pixels, linear(&scene, &table, &edits, SIZE).pixels, "{model:?}");
     }
 }

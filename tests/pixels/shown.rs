@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec2, Vec3};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Scene, Settings};
+use velour::scene::{AlphaMode, Drawn, Edits, Scene};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
@@ -18,9 +18,10 @@ fn stage() -> Stage {
     Stage::new(vec![floor, light], looking([0.4, 1.9, 4.6], [0.1, 0.1, 0.0]))
 }
 
-fn shown(scene: &Scene, samples: u32, settings: &Settings, tone: ToneCurve, size: [u32; 2]) -> DisplayImage {
-    let mut renderer = Offscreen::for_display(&GPU, samples, &SheenTable::embedded(), scene, settings).unwrap();
-    GPU.block_on(renderer.display(&GPU, &scene.cameras[0], size, settings, tone)).unwrap()
+fn shown(scene: &Scene, samples: u32, edits: &Edits, tone: ToneCurve, size: [u32; 2]) -> DisplayImage {
+    let drawn = Drawn::new(scene, &Edits { tone: Some(tone), ..edits.clone() });
+    let mut renderer = Offscreen::for_display(&GPU, samples, &SheenTable::embedded(), &drawn).unwrap();
+    GPU.block_on(renderer.display(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }
 
 /// The greatest difference of two pictures' channels, of 255.
@@ -33,11 +34,11 @@ fn greatest(left: &DisplayImage, right: &DisplayImage) -> u8 {
 #[test]
 fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
     let scene = stage().scene();
-    let radiance = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
+    let radiance = linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE);
     for tone in [ToneCurve::None, ToneCurve::Neutral, ToneCurve::Agx] {
         for exposure in [-2.0, 0.0, 1.3, 6.0] {
-            let settings = Settings { exposure, ..Settings::default() };
-            let picture = shown(&scene, 1, &settings, tone, SIZE);
+            let edits = Edits { exposure: Some(exposure), ..Edits::default() };
+            let picture = shown(&scene, 1, &edits, tone, SIZE);
             // On its way radiance is kept in 11 bits: an error of a twentieth of a step, which may tip the rounding to
             // 8 bits.
             assert!(greatest(&picture, &radiance.display(exposure, tone)) <= 1, "{tone:?} {exposure}");
@@ -53,10 +54,10 @@ fn exposure_reaches_radiance_of_any_unit() {
         let mut stage = stage();
         stage.things[1].material = glow([radiance; 3]);
         let scene = stage.scene();
-        let settings = Settings { exposure, ..Settings::default() };
-        let expected = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
+        let edits = Edits { exposure: Some(exposure), ..Edits::default() };
+        let expected = linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE);
         let expected = expected.display(exposure, ToneCurve::None);
-        let picture = shown(&scene, 1, &settings, ToneCurve::None, SIZE);
+        let picture = shown(&scene, 1, &edits, ToneCurve::None, SIZE);
         assert!(greatest(&picture, &expected) <= 1, "{radiance} {exposure}");
         assert!(expected.pixels.as_flattened().iter().any(|channel| (100..250).contains(channel)));
     }
@@ -70,7 +71,7 @@ fn a_light_does_not_shine_on_itself() {
         let mut lamp = Thing::rectangle([0.3, 0.3], glow([0.5; 3])).placed(facing(center, [x + 0.3, y + 0.5, z + 1.0]));
         (lamp.material.double_sided, lamp.material.base_color) = (true, glam::Vec3::ONE);
         let scene = Stage::new(vec![lamp], looking([x + 0.6, y + 0.4, z + 1.0], center)).scene();
-        let picture = linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE);
+        let picture = linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE);
         let lit = picture.pixels.iter().filter(|[red, ..]| *red > 0.0).count();
         assert!(lit > 1000, "{center:?}: {lit} pixels");
         assert!(picture.pixels.iter().all(|[red, ..]| *red == 0.0 || *red == 0.5), "{center:?}");
@@ -79,12 +80,13 @@ fn a_light_does_not_shine_on_itself() {
 
 #[test]
 fn four_samples_smooth_the_edges_alone() {
-    let (stage, settings, table) = (stage(), Settings::default(), SheenTable::embedded());
+    let (stage, edits, table) = (stage(), Edits::default(), SheenTable::embedded());
     let scene = stage.scene();
-    let single = linear(&scene, &table, &settings, SIZE);
-    let mut renderer = Offscreen::for_linear(&GPU, 4, &table, &scene, &settings).unwrap();
-    let smooth = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap();
-    let truth = Truth::new(&stage, &table, &settings, SIZE);
+    let single = linear(&scene, &table, &edits, SIZE);
+    let drawn = Drawn::new(&scene, &edits);
+    let mut renderer = Offscreen::for_linear(&GPU, 4, &table, &drawn).unwrap();
+    let smooth = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap();
+    let truth = Truth::new(&stage, &table, &edits, SIZE);
     let mut mixed = 0;
     for (index, (single, smooth)) in single.pixels.iter().zip(&smooth.pixels).enumerate() {
         let [x, y] = [index as u32 % SIZE[0], index as u32 / SIZE[0]].map(f64::from);
@@ -105,11 +107,11 @@ fn four_samples_smooth_the_edges_alone() {
 
 #[test]
 fn pictures_past_a_tile_show_no_seam() {
-    let (stage, settings, table) = (stage(), sheen_alone(), SheenTable::embedded());
+    let (stage, edits, table) = (stage(), sheen_alone(), SheenTable::embedded());
     for size in [[2100, 30], [20, 2060]] {
-        let picture = linear(&stage.scene(), &table, &settings, size);
-        differences(&picture, &Truth::new(&stage, &table, &settings, size)).unwrap();
-        let smooth = shown(&stage.scene(), 1, &settings, ToneCurve::Neutral, size);
+        let picture = linear(&stage.scene(), &table, &edits, size);
+        differences(&picture, &Truth::new(&stage, &table, &edits, size)).unwrap();
+        let smooth = shown(&stage.scene(), 1, &edits, ToneCurve::Neutral, size);
         assert!(greatest(&smooth, &picture.display(0.0, ToneCurve::Neutral)) <= 1);
     }
 }
@@ -117,11 +119,11 @@ fn pictures_past_a_tile_show_no_seam() {
 #[test]
 fn the_same_picture_comes_out_every_time() {
     let (scene, table) = (stage().scene(), SheenTable::embedded());
-    let settings = Settings::default();
-    let bits = |_| linear(&scene, &table, &settings, SIZE).pixels.concat().into_iter().map(f32::to_bits).collect();
+    let edits = Edits::default();
+    let bits = |_| linear(&scene, &table, &edits, SIZE).pixels.concat().into_iter().map(f32::to_bits).collect();
     let [first, second]: [Vec<u32>; 2] = [0, 1].map(bits);
     assert_eq!(first, second);
-    let [first, second] = [0, 1].map(|_| shown(&scene, 4, &settings, ToneCurve::Neutral, SIZE));
+    let [first, second] = [0, 1].map(|_| shown(&scene, 4, &edits, ToneCurve::Neutral, SIZE));
     assert_eq!(first, second);
 }
 
@@ -149,7 +151,7 @@ fn many_triangles_are_drawn_in_parts_without_a_trace() {
             other.world_from_mesh.w_axis.y += height;
             scene.instances.push(other);
         }
-        linear(&scene, &SheenTable::embedded(), &Settings::default(), SIZE)
+        linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE)
     };
     for blended in [false, true] {
         let (whole, parts) = (floor(1, blended), floor(220, blended));
@@ -169,15 +171,14 @@ fn a_kilometre_from_the_origin_a_scene_looks_as_at_it() {
     let at = |offset: f32| {
         let mut scene = stage().scene();
         let place = Mat4::from_translation(Vec3::splat(offset));
-        let lights: Vec<usize> = scene.lights.iter().map(|light| light.instance).collect();
-        for index in 0..lights.len() {
-            scene.move_light(index, Vec3::splat(offset));
-        }
-        for (_, instance) in scene.instances.iter_mut().enumerate().filter(|(index, _)| !lights.contains(index)) {
+        let polygons = scene.lights.iter_mut().flat_map(|light| &mut light.polygons);
+        let corners = polygons.flat_map(|polygon| &mut polygon.contours).flatten();
+        corners.for_each(|corner| *corner += Vec3::splat(offset));
+        for instance in &mut scene.instances {
             instance.world_from_mesh = place * instance.world_from_mesh;
         }
         scene.cameras[0].world_from_camera = place * scene.cameras[0].world_from_camera;
-        shown(&scene, 4, &Settings::default(), ToneCurve::None, SIZE)
+        shown(&scene, 4, &Edits::default(), ToneCurve::None, SIZE)
     };
     let (near, far) = (at(0.0), at(1024.0));
     let differs = |(near, far): &(&[u8; 3], &[u8; 3])| (0..3).any(|channel| near[channel].abs_diff(far[channel]) > 10);

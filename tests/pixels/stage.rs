@@ -214,11 +214,11 @@ fn material(material: &Material) -> Value {
         },
     });
     match material.sheen {
-        Some(Sheen { color, roughness, weight: 1.0 }) => {
+        Some(Sheen { color, roughness, weight: 1.0, .. }) => {
             json["extensions"]["KHR_materials_sheen"] =
                 json!({ "sheenColorFactor": color.to_array(), "sheenRoughnessFactor": roughness });
         }
-        Some(Sheen { color, roughness, weight }) => {
+        Some(Sheen { color, roughness, weight, .. }) => {
             json["extensions"]["KHR_materials_fuzz"] = json!({
                 "fuzzFactor": weight,
                 "fuzzColorFactor": color.to_array(),

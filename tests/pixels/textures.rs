@@ -4,8 +4,8 @@ use glam::{Affine2, Vec2, Vec3, Vec4};
 use velour::picture::LinearImage;
 use velour::renderer::Offscreen;
 use velour::scene::{
-    AlphaMode, Image, Layering, Lobes, Material, Overrides, PunctualKind, PunctualLight, Sampler, Scene, Settings,
-    Sheen, Texture, TextureSlot, TextureUse, linear_from_srgb,
+    AlphaMode, Drawn, Edits, Image, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Sampler,
+    Scene, Sheen, Texture, TextureSlot, TextureUse, linear_from_srgb,
 };
 use velour::table::SheenTable;
 
@@ -40,8 +40,8 @@ fn textured(scene: &mut Scene, slot: TextureSlot, size: [u32; 2], texels: Vec<[u
 }
 
 fn picture(scene: &Scene) -> LinearImage {
-    let settings = Settings { lights_visible: false, ..Settings::default() };
-    linear(scene, &SheenTable::embedded(), &settings, SIZE)
+    let edits = Edits { lights_visible: Some(false), ..Edits::default() };
+    linear(scene, &SheenTable::embedded(), &edits, SIZE)
 }
 
 /// The greatest difference over all pixels, as a share of the brightest.
@@ -59,7 +59,7 @@ fn rich() -> Material {
         roughness: 0.6,
         specular: 0.7,
         specular_color: Vec3::new(1.2, 0.8, 1.0),
-        sheen: Some(Sheen { color: Vec3::new(0.9, 0.5, 0.3), roughness: 0.5, weight: 0.8 }),
+        sheen: Some(Sheen { weight: 0.8, ..Sheen::new(Vec3::new(0.9, 0.5, 0.3), 0.5) }),
         emission: Vec3::ZERO,
         ..plain()
     }
@@ -103,10 +103,11 @@ fn one_texel_is_a_factor_in_the_right_channel_and_encoding() {
 /// OpenPBR's rule looks at the weight alone: it is the texture's too.
 #[test]
 fn a_textured_weight_hides_as_much_of_the_base_as_a_factor() {
-    let overrides = Overrides { layering: Some(Layering::OpenPbr), ..Overrides::default() };
+    let overrides = MaterialEdits { layering: Some(Layering::OpenPbr), ..MaterialEdits::default() };
     let lobes = Lobes { sheen: false, diffuse: true, specular: false, emission: false };
-    let settings = Settings { lobes, overrides, lights_visible: false, ..Settings::default() };
-    let base = |scene: &Scene| linear(scene, &SheenTable::embedded(), &settings, SIZE);
+    let edits =
+        Edits { lobes: Some(lobes), every_material: overrides, lights_visible: Some(false), ..Edits::default() };
+    let base = |scene: &Scene| linear(scene, &SheenTable::embedded(), &edits, SIZE);
     let of_weight = |weight: f32| {
         let sheen = rich().sheen.map(|sheen| Sheen { weight, ..sheen });
         floor(Material { sheen, ..rich() })
@@ -119,12 +120,12 @@ fn a_textured_weight_hides_as_much_of_the_base_as_a_factor() {
 
 #[test]
 fn occlusion_weakens_the_environment_alone() {
-    let settings = Settings { lights_visible: false, ambient: Vec3::ONE, ..Settings::default() };
-    let lit = |scene: &Scene| linear(scene, &SheenTable::embedded(), &settings, SIZE);
+    let edits = Edits { lights_visible: Some(false), ambient: Some(Vec3::ONE), ..Edits::default() };
+    let lit = |scene: &Scene| linear(scene, &SheenTable::embedded(), &edits, SIZE);
     let mut scene = floor(rich());
     scene.materials[0].occlusion_strength = 0.5;
     textured(&mut scene, TextureSlot::Occlusion, [1, 1], vec![[51, 255, 255, 255]]);
-    let weakened = Settings { ambient: Vec3::splat(1.0 - 0.5 * 0.8), ..settings.clone() };
+    let weakened = Edits { ambient: Some(Vec3::splat(1.0 - 0.5 * 0.8)), ..edits.clone() };
     let expected = linear(&floor(rich()), &SheenTable::embedded(), &weakened, SIZE);
     assert!(difference(&lit(&scene), &expected) < 1e-3);
 }
@@ -148,7 +149,7 @@ fn shown(change: impl Fn(&mut Scene)) -> [[u8; 3]; 4] {
     scene.textures[0].sampler.magnify = velour::scene::Filter::Nearest;
     change(&mut scene);
     let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-    let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    let picture = linear(&scene, &SheenTable::embedded(), &Edits { lobes: Some(lobes), ..Edits::default() }, SIZE);
     [(false, false), (true, false), (false, true), (true, true)].map(|(right, near)| quarter(&picture, right, near))
 }
 
@@ -187,7 +188,7 @@ fn far_textures_are_their_mean_in_linear_light() {
     let repeated = Affine2::from_scale(Vec2::splat(40.0));
     scene.materials[0].textures[TextureSlot::Emission as usize].as_mut().unwrap().uv_from_tex_coord = repeated;
     let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-    let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+    let picture = linear(&scene, &SheenTable::embedded(), &Edits { lobes: Some(lobes), ..Edits::default() }, SIZE);
     for near in [false, true] {
         let [r, ..] = quarter(&picture, false, near);
         assert!((120..=135).contains(&r), "{r}");
@@ -217,7 +218,7 @@ fn triangles_leave_no_seams_in_textures() {
         };
         mesh.indices = (0..parts).flat_map(|y| (0..parts).flat_map(move |x| quad(x, y))).collect();
         let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-        linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE)
+        linear(&scene, &SheenTable::embedded(), &Edits { lobes: Some(lobes), ..Edits::default() }, SIZE)
     };
     let (whole, parts) = (shown(1), shown(23));
     let far = |(left, right): &(&[f32; 3], &[f32; 3])| (left[0] - right[0]).abs() > 0.1;
@@ -258,10 +259,11 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
 /// Filtering widens the lobe by what a mipmap has averaged, and by nothing else.
 #[test]
 fn flat_normal_maps_leave_sharp_reflections_sharp() {
-    let settings = Settings { lights_visible: false, ..Settings::default() };
+    let edits = Edits { lights_visible: Some(false), ..Edits::default() };
     let filtered = |scene: &Scene| {
-        let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), scene, &settings).unwrap();
-        GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &settings)).unwrap()
+        let drawn = Drawn::new(scene, &edits);
+        let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), &drawn).unwrap();
+        GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap()
     };
     let polished = Material { roughness: 0.15, metallic: 1.0, sheen: None, ..rich() };
     let bare = filtered(&floor(polished.clone()));
@@ -295,7 +297,7 @@ fn textures_without_mipmaps_are_made_smaller_as_they_say() {
         textured(&mut scene, TextureSlot::Emission, [256, 256], texels.clone());
         scene.textures[0].sampler = Sampler { magnify, minify, mipmaps: None, ..Sampler::DEFAULT };
         let lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: true };
-        let picture = linear(&scene, &SheenTable::embedded(), &Settings { lobes, ..Settings::default() }, SIZE);
+        let picture = linear(&scene, &SheenTable::embedded(), &Edits { lobes: Some(lobes), ..Edits::default() }, SIZE);
         picture.pixels.iter().filter(|pixel| (0.02..0.98).contains(&pixel[0])).count()
     };
     assert_eq!(greys(Linear, Nearest), 0);
@@ -337,8 +339,8 @@ fn lights_without_extent_below_the_surface_reach_no_mapped_normal() {
             position: Vec3::new(0.0, y, -3.0),
             direction: Vec3::NEG_Y,
         });
-        let settings = Settings { lights_visible: false, ..Settings::default() };
-        linear(&scene, &SheenTable::embedded(), &settings, SIZE).pixels.into_iter().flatten().fold(0.0, f32::max)
+        let edits = Edits { lights_visible: Some(false), ..Edits::default() };
+        linear(&scene, &SheenTable::embedded(), &edits, SIZE).pixels.into_iter().flatten().fold(0.0, f32::max)
     };
     assert!(lit_from(0.3) > 0.01, "the normal leans towards the light");
     assert_eq!(lit_from(-0.1), 0.0);

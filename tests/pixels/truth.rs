@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use velour::reference::polygon::form_factor;
-use velour::scene::{Layering, Lobes, Projection, PunctualKind, PunctualLight, Settings};
+use velour::scene::{Edits, Layering, Lobes, Projection, PunctualKind, PunctualLight, Settings, Sheen};
 use velour::table::{GgxTable, SheenTable};
 
 use super::stage::{Stage, Thing};
@@ -33,13 +33,14 @@ struct Ray {
 pub struct Truth<'a> {
     stage: &'a Stage,
     table: &'a SheenTable,
-    settings: &'a Settings,
+    edits: &'a Edits,
+    settings: Settings,
     size: [u32; 2],
     lights: Vec<Lit>,
 }
 
 impl<'a> Truth<'a> {
-    pub fn new(stage: &'a Stage, table: &'a SheenTable, settings: &'a Settings, size: [u32; 2]) -> Self {
+    pub fn new(stage: &'a Stage, table: &'a SheenTable, edits: &'a Edits, size: [u32; 2]) -> Self {
         let outline = |thing: &Thing| {
             let world_from_mesh = thing.world_from_mesh.as_dmat4();
             let place = |corner: &Vec3| world_from_mesh.transform_point3(corner.as_dvec3());
@@ -57,7 +58,7 @@ impl<'a> Truth<'a> {
             }
         };
         let lights = stage.things.iter().filter(|thing| thing.glows()).map(outline).collect();
-        Self { stage, table, settings, size, lights }
+        Self { stage, table, edits, settings: edits.settings(), size, lights }
     }
 
     /// At a point of the picture, in pixels from its upper left corner; the centre of the first is (0.5, 0.5).
@@ -127,6 +128,45 @@ impl<'a> Truth<'a> {
     }
 }
 
+/// The layer on a thing, as the design says that edits make it.
+#[derive(Clone, Copy)]
+struct Fibres {
+    color: DVec3,
+    weight: f64,
+    alpha: f64,
+    layering: Layering,
+}
+
+impl Fibres {
+    fn new(truth: &Truth, thing: usize) -> Option<Self> {
+        let own = |index: usize| truth.stage.things[index].material.sheen.filter(|sheen| sheen.weight > 0.0);
+        let colored = |index: usize| own(index).filter(|sheen| sheen.color != Vec3::ZERO);
+        let set = |index: usize| truth.edits.materials.get(&index).copied().unwrap_or_default();
+        let has = |index: usize| {
+            colored(index).is_some() || set(index).alpha.or(set(index).sheen_color.map(|_| 0.5)).is_some()
+        };
+        let all = truth.edits.every_material;
+        let heeds_all = has(thing) || !(0..truth.stage.things.len()).any(has);
+        let alpha = set(thing).alpha.or(all.alpha.filter(|_| heeds_all));
+        let color = set(thing).sheen_color.or(all.sheen_color.filter(|_| heeds_all));
+        let layering = set(thing).layering.or(all.layering).unwrap_or_default();
+        // Black fibres only hide the base, under a rule for which their colour does not count.
+        let start = match (colored(thing), alpha.is_some() || color.is_some()) {
+            (Some(sheen), _) => sheen,
+            (None, true) => Sheen::new(Vec3::ONE, 0.5),
+            (None, false) => own(thing).filter(|_| layering == Layering::OpenPbr)?,
+        };
+        let map = set(thing).roughness_map.or(all.roughness_map).unwrap_or_default();
+        let mapped = f64::from(start.roughness).powf(f64::from(map.exponent()));
+        Some(Self {
+            color: color.unwrap_or(start.color).as_dvec3(),
+            weight: if color.is_some() { 1.0 } else { start.weight.into() },
+            alpha: alpha.map_or(mapped, f64::from),
+            layering,
+        })
+    }
+}
+
 /// A surface as it is seen from one side.
 struct Look<'a> {
     table: &'a SheenTable,
@@ -144,10 +184,9 @@ struct Look<'a> {
 impl<'a> Look<'a> {
     fn new(truth: &Truth<'a>, thing: usize, mu: f64) -> Self {
         let material = &truth.stage.things[thing].material;
-        let look = truth.settings.sheen_of(thing, material);
-        let color = look.map_or(DVec3::ZERO, |look| look.sheen.color.as_dvec3() * f64::from(look.sheen.weight));
-        let alpha =
-            look.map_or(0.0, |look| f64::from(look.sheen.roughness).powf(f64::from(look.roughness_map.exponent())));
+        let fibres = Fibres::new(truth, thing);
+        let color = fibres.map_or(DVec3::ZERO, |fibres| fibres.color * fibres.weight);
+        let alpha = fibres.map_or(0.0, |fibres| fibres.alpha);
         let [a, b, r] = truth.table.lookup(alpha, mu);
         let ggx = GGX.lookup(material.roughness.into(), mu);
         let rows = |a: f64, b: f64, c: f64| DMat3::from_cols(DVec3::X * a, DVec3::Y * c, DVec3::new(b, 0.0, 1.0));
@@ -160,12 +199,12 @@ impl<'a> Look<'a> {
         let base_color = material.base_color.as_dvec3();
         let normal = ((f64::from(material.ior) - 1.0) / (f64::from(material.ior) + 1.0)).powi(2);
         let f0 = (normal * material.specular_color.as_dvec3()).min(DVec3::ONE) * specular;
-        let layering = truth.settings.layering_of(thing);
+        let layering = fibres.map_or(Layering::None, |fibres| fibres.layering);
         let base_weight = match layering {
             Layering::Gltf | Layering::Reciprocal => 1.0 - color.max_element() * r,
-            Layering::OpenPbr => 1.0 - look.map_or(0.0, |look| f64::from(look.sheen.weight)) * r,
-            Layering::Manual(share) if look.is_some() => share.into(),
-            Layering::Manual(_) | Layering::None | Layering::Walk => 1.0,
+            Layering::OpenPbr => 1.0 - fibres.map_or(0.0, |fibres| fibres.weight) * r,
+            Layering::Manual(share) => share.into(),
+            Layering::None | Layering::Walk => 1.0,
         };
         Self {
             table: truth.table,

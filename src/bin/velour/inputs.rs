@@ -1,17 +1,18 @@
-//! What every way of rendering starts from: the scene, the table, the settings.
+//! What every way of rendering starts from: the scene, what is changed in it, the table.
 
 use std::path::Path;
 
 use velour::file::check_writable;
 use velour::picture::Format;
-use velour::scene::{Camera, Overrides, Scene, Settings, gltf};
+use velour::scene::{Camera, CameraEdit, Drawn, Edits, Kind, Scene, gltf, select};
 use velour::table::SheenTable;
 
+use crate::assignment;
 use crate::console::complain;
 use crate::failure::Failure;
 use crate::output::check_apart;
-use crate::overrides;
-use crate::picture_args::{PictureArgs, Switch};
+use crate::picture_args::PictureArgs;
+use crate::state;
 use crate::timing::Timing;
 
 /// What a picture is made of.
@@ -19,9 +20,8 @@ pub struct Inputs {
     pub format: Format,
     pub scene: Scene,
     pub table: SheenTable,
-    pub settings: Settings,
-    /// Index into the scene's cameras.
-    camera: usize,
+    /// Of the state and, over it, the flags.
+    pub edits: Edits,
 }
 
 impl Inputs {
@@ -34,13 +34,20 @@ impl Inputs {
             let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
             Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
         })?;
-        let camera = camera(&scene, arguments.camera.as_deref())?;
-        let settings = settings(arguments, &scene)?;
-        Ok(Self { format, scene, table, settings, camera })
+        let state =
+            arguments.state.as_deref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
+        let edits = state.then(&edits(arguments, &scene)?);
+        Ok(Self { format, scene, table, edits })
     }
 
-    pub fn camera(&self) -> &Camera {
-        &self.scene.cameras[self.camera]
+    /// The view that is wanted. A loaded scene has a camera.
+    pub fn camera(&self) -> Camera {
+        self.edits.camera(&self.scene)
+    }
+
+    /// The scene as it is drawn.
+    pub fn drawn(&self) -> Drawn<'_> {
+        Drawn::new(&self.scene, &self.edits)
     }
 
     /// Prints the scene's notices, which have waited until nothing can go wrong any more.
@@ -49,36 +56,20 @@ impl Inputs {
     }
 }
 
-fn settings(arguments: &PictureArgs, scene: &Scene) -> Result<Settings, Failure> {
-    Ok(Settings {
-        lobes: arguments.lobes,
-        lights_visible: arguments.lights_visible == Switch::On,
-        exposure: arguments.exposure,
-        ambient: arguments.ambient,
-        overrides: Overrides {
-            alpha: arguments.alpha,
-            sheen_color: arguments.sheen_color,
-            roughness_map: arguments.roughness_map,
-            sheen_model: arguments.sheen_model,
-            layering: arguments.layering,
-        },
-        material_overrides: overrides::resolve(&arguments.set, &scene.materials).map_err(Failure::input)?,
-    })
+/// What the flags change.
+fn edits(arguments: &PictureArgs, scene: &Scene) -> Result<Edits, Failure> {
+    let assigned = assignment::resolve(&arguments.set, scene).map_err(Failure::input)?;
+    let camera = arguments.camera.as_deref().map(|wanted| camera(scene, wanted)).transpose()?;
+    // One of `--set` goes before those for all materials, wherever it stands.
+    Ok(Edits { camera, ..arguments.edits().then(&assigned) })
 }
 
 fn sheen_table(path: Option<&Path>) -> Result<SheenTable, Failure> {
     path.map_or_else(|| Ok(SheenTable::embedded()), |path| SheenTable::load(path).map_err(Failure::input))
 }
 
-/// Index of the camera that is wanted, else of the first.
-fn camera(scene: &Scene, wanted: Option<&str>) -> Result<usize, Failure> {
-    let Some(wanted) = wanted else {
-        return if scene.cameras.is_empty() { Err(Failure::input("the scene has no camera")) } else { Ok(0) };
-    };
-    let found = scene.camera(wanted).and_then(|camera| scene.cameras.iter().position(|own| std::ptr::eq(own, camera)));
-    found.ok_or_else(|| {
-        let names: Vec<String> =
-            scene.cameras.iter().enumerate().map(|(index, camera)| format!("{index} ({})", camera.name)).collect();
-        Failure::input(format!("--camera {wanted}: the scene has no such camera; it has {}", names.join(", ")))
-    })
+fn camera(scene: &Scene, wanted: &str) -> Result<CameraEdit, Failure> {
+    let found = select(scene, Kind::Camera, wanted);
+    let found = found.map_err(|unknown| Failure::input(format!("--camera {wanted}: {unknown}")))?;
+    Ok(CameraEdit::Loaded(found[0]))
 }

@@ -4,6 +4,7 @@
 //! `figures`, `info`; `args` lists them. The others are what commands share.
 
 mod args;
+mod assignment;
 mod compare;
 mod console;
 mod failure;
@@ -14,12 +15,12 @@ mod info;
 mod inputs;
 mod interrupt;
 mod output;
-mod overrides;
 mod picture_args;
 mod progress;
 mod reference;
 #[cfg(feature = "gpu")]
 mod render;
+mod state;
 mod timing;
 #[cfg(feature = "window")]
 mod view;

@@ -1,13 +1,13 @@
-//! The flags that all ways of rendering share, and their ranges.
+//! The flags that all ways of rendering share.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use velour::picture::ToneCurve;
-use velour::scene::{Layering, Lobes, RoughnessMap, SheenModel};
+use velour::scene::{Edits, Layering, Lobes, MaterialEdits, RoughnessMap, SheenModel, Value};
 
-use crate::overrides::{self, Assignment};
+use crate::assignment::{Assignment, assignment};
 
 /// What to draw, of which scene, and where to.
 #[derive(Args)]
@@ -20,49 +20,54 @@ pub struct PictureArgs {
     /// Pixels, width x height; the camera's vertical field of view is kept whatever the aspect
     #[arg(long, default_value = "1280x720", value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: [u32; 2],
+    /// What the viewer has saved: camera, lights, materials; flags win over it
+    #[arg(long, value_name = "FILE")]
+    pub state: Option<PathBuf>,
     /// A camera of the scene, by name or by index [default: the first]
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
-    /// Gives every material a sheen of this alpha, in [0,1]
-    #[arg(long, value_name = "A", value_parser = overrides::share, allow_negative_numbers = true)]
+    /// The alpha, in [0,1], of every material that has a sheen, whatever its roughness map; where none has a sheen, all get a
+    /// white one
+    #[arg(long, value_name = "A", value_parser = read(Value::share), allow_negative_numbers = true)]
     pub alpha: Option<f32>,
-    /// Gives every material a sheen of this colour, linear Rec. 709, each in [0,1]
-    #[arg(long, value_name = "R,G,B", value_parser = overrides::color, allow_hyphen_values = true)]
+    /// The colour, linear Rec. 709, each in [0,1], of every material that has a sheen; where none has a sheen, all get one of
+    /// alpha 0.5
+    #[arg(long, value_name = "R,G,B", value_parser = read(Value::color), allow_hyphen_values = true)]
     pub sheen_color: Option<Vec3>,
-    /// Changes one material, by name or index: keys alpha, sheen-color, roughness-map, sheen-model, layering;
-    /// repeatable
-    #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = overrides::assignment)]
+    /// Changes one material, by name or index: keys alpha and sheen-color (which give it a sheen if it has none),
+    /// roughness-map, sheen-model, layering, and base-color, metallic, roughness of the base; repeatable
+    #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = assignment)]
     pub set: Vec<Assignment>,
     /// How much of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through
     /// fibres and base, whatever the sheen's model (with `velour reference` only) [default: gltf]
-    #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = overrides::layering)]
+    #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = read(Value::layering))]
     pub layering: Option<Layering>,
-    /// The sheen's alpha for a roughness x: identity is x, square x^2, sqrt its square root [default: identity]
-    #[arg(long, value_name = "identity|square|sqrt", value_parser = overrides::roughness_map)]
+    /// The sheen's alpha for a roughness x of the file: identity is x, square x^2, sqrt its square root [default: identity]
+    #[arg(long, value_name = "identity|square|sqrt", value_parser = read(Value::roughness_map))]
     pub roughness_map: Option<RoughnessMap>,
     /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path
     /// by path (both with `velour reference` only); or a model of earlier work, to compare with: in real time it is
     /// summed over 128 points or more on each polygon light [default: ltc]
-    #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = overrides::sheen_model)]
+    #[arg(long, value_name = "ltc|slab|walk|burley|conty-kulla|neubelt-pettineo|patry", value_parser = read(Value::sheen_model))]
     pub sheen_model: Option<SheenModel>,
     /// Another table with our columns, .csv or .dds
     #[arg(long, value_name = "FILE")]
     pub sheen_table: Option<PathBuf>,
-    /// What is summed, of sheen, diffuse, specular and emission
-    #[arg(long, default_value = "sheen,diffuse,specular,emission", value_name = "LIST", value_parser = lobes)]
-    pub lobes: Lobes,
-    /// Emitters that light the scene are drawn
-    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
-    pub lights_visible: Switch,
-    /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0
-    #[arg(long, default_value = "0,0,0", value_name = "R,G,B", value_parser = radiance, allow_hyphen_values = true)]
-    pub ambient: Vec3,
-    /// Exposure value of a .png: radiance is multiplied by 2^EV
-    #[arg(long, default_value_t = 0.0, value_name = "EV", value_parser = exposure, allow_negative_numbers = true)]
-    pub exposure: f32,
-    /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral, agx is Blender's AgX
-    #[arg(long, default_value = "neutral", value_enum, value_name = "NAME")]
-    pub tonemap: Tonemap,
+    /// What is summed, of sheen, diffuse, specular and emission; or none [default: all]
+    #[arg(long, value_name = "LIST", value_parser = read(Value::lobes))]
+    pub lobes: Option<Lobes>,
+    /// Emitters that light the scene are drawn [default: on]
+    #[arg(long, value_enum, value_name = "on|off")]
+    pub lights_visible: Option<Switch>,
+    /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0 [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = read(Value::radiance), allow_hyphen_values = true)]
+    pub ambient: Option<Vec3>,
+    /// Exposure value of a .png: radiance is multiplied by 2^EV [default: 0]
+    #[arg(long, value_name = "EV", value_parser = read(Value::exposure), allow_negative_numbers = true)]
+    pub exposure: Option<f32>,
+    /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral, agx is Blender's AgX [default: neutral]
+    #[arg(long, value_name = "none|neutral|agx", value_parser = read(Value::tone))]
+    pub tonemap: Option<ToneCurve>,
     /// Prints figures for machines on stdout
     #[arg(long)]
     pub json: bool,
@@ -74,21 +79,36 @@ pub enum Switch {
     Off,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-pub enum Tonemap {
-    None,
-    Neutral,
-    Agx,
-}
-
-impl From<Tonemap> for ToneCurve {
-    fn from(tonemap: Tonemap) -> Self {
-        match tonemap {
-            Tonemap::None => Self::None,
-            Tonemap::Neutral => Self::Neutral,
-            Tonemap::Agx => Self::Agx,
+impl PictureArgs {
+    /// What the flags change in every scene; what they say of single things waits for the scene.
+    pub fn edits(&self) -> Edits {
+        Edits {
+            lobes: self.lobes,
+            lights_visible: self.lights_visible.map(|switch| switch == Switch::On),
+            ambient: self.ambient,
+            // The radiance that is given is the one that is meant, however a state dims it.
+            ambient_strength: self.ambient.map(|_| 1.0),
+            exposure: self.exposure,
+            tone: self.tonemap,
+            every_material: MaterialEdits {
+                alpha: self.alpha,
+                sheen_color: self.sheen_color,
+                roughness_map: self.roughness_map,
+                sheen_model: self.sheen_model,
+                layering: self.layering,
+                ..MaterialEdits::default()
+            },
+            ..Edits::default()
         }
     }
+}
+
+/// Reads a flag's text as a value of edits.
+fn read<T>(check: fn(&Value) -> Result<T, String>) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static
+where
+    T: 'static,
+{
+    move |text| check(&Value::of_flag(text))
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -97,55 +117,15 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     sides.ok_or_else(|| "give two whole numbers of at least 1, say 1280x720".to_owned())
 }
 
-fn radiance(text: &str) -> Result<Vec3, String> {
-    let wrong = || "give three finite numbers from 0 up, say 0.1,0.1,0.2".to_owned();
-    overrides::triple(text).filter(|radiance| radiance.cmpge(Vec3::ZERO).all()).ok_or_else(wrong)
-}
-
-/// Past 100 stops either way a float has nothing left to show.
-fn exposure(text: &str) -> Result<f32, String> {
-    overrides::number(text).filter(|value| value.abs() <= 100.0).ok_or_else(|| "give a number in [-100,100]".to_owned())
-}
-
-fn lobes(text: &str) -> Result<Lobes, String> {
-    let mut lobes = Lobes { sheen: false, diffuse: false, specular: false, emission: false };
-    for name in text.split(',') {
-        match name.trim() {
-            "sheen" => lobes.sheen = true,
-            "diffuse" => lobes.diffuse = true,
-            "specular" => lobes.specular = true,
-            "emission" => lobes.emission = true,
-            _ => return Err("give a list of sheen, diffuse, specular and emission, say sheen,diffuse".to_owned()),
-        }
-    }
-    Ok(lobes)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn values_in_range_are_taken() {
+    fn sizes_are_two_whole_numbers() {
         assert_eq!(size("640x360"), Ok([640, 360]));
-        assert_eq!(radiance("0, 0.5,30"), Ok(Vec3::new(0.0, 0.5, 30.0)));
-        assert_eq!(exposure("-2.5"), Ok(-2.5));
-        assert_eq!(lobes("sheen"), Ok(Lobes { sheen: true, diffuse: false, specular: false, emission: false }));
-    }
-
-    #[test]
-    fn values_out_of_range_are_refused() {
         for text in ["", "0x1", "1x0", "1x", "x", "1x2x3", "-1x1", "99999999999x1", "1.5x2"] {
             assert!(size(text).is_err(), "{text}");
-        }
-        for text in ["", "1,1", "1,1,1,1", ",,", "1,1,-0.1", "nan,0,0", "1,inf,0", "1e40,0,0"] {
-            assert!(radiance(text).is_err(), "{text}");
-        }
-        for text in ["nan", "inf", "101", "x"] {
-            assert!(exposure(text).is_err(), "{text}");
-        }
-        for text in ["", "shadow", "sheen,", "all"] {
-            assert!(lobes(text).is_err(), "{text}");
         }
     }
 }

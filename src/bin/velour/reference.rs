@@ -8,6 +8,7 @@ use serde_json::json;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::{Format, FormatError};
 use velour::reference::{self, Effort, Options, Picture, ReferenceError};
+use velour::scene::Settings;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
@@ -132,13 +133,13 @@ pub fn render(
     timing: &mut Timing,
 ) -> Result<(Picture, Counts), Failure> {
     listen();
-    let Inputs { scene, settings, table, .. } = inputs;
-    let renderer =
-        timing.measure("build", || reference::Reference::new(scene, settings, table, options)).map_err(failure)?;
+    let drawn = inputs.drawn();
+    let renderer = timing.measure("build", || reference::Reference::new(&drawn, &inputs.table, options));
+    let renderer = renderer.map_err(failure)?;
     let camera = inputs.camera();
     let picture = timing.measure("render", || {
         with_progress("reference", |step| {
-            renderer.render(camera, arguments.size, effort, |done, all| {
+            renderer.render(&camera, arguments.size, effort, |done, all| {
                 step(done as usize, all as usize);
                 !ENDING.load(Ordering::Relaxed)
             })
@@ -149,9 +150,10 @@ pub fn render(
 }
 
 /// The picture's file, in memory.
-fn encoded(picture: &Picture, format: Format, arguments: &PictureArgs) -> Result<Vec<u8>, FormatError> {
-    match format {
-        Format::Png => picture.radiance.display(arguments.exposure, arguments.tonemap.into()).to_png(),
+fn encoded(picture: &Picture, inputs: &Inputs) -> Result<Vec<u8>, FormatError> {
+    let Settings { exposure, tone, .. } = inputs.edits.settings();
+    match inputs.format {
+        Format::Png => picture.radiance.display(exposure, tone).to_png(),
         Format::Exr => picture.radiance.to_exr(),
     }
 }
@@ -164,7 +166,7 @@ pub fn finish(
     counts: Counts,
     timing: &mut Timing,
 ) -> Result<(), Failure> {
-    let bytes = timing.measure("encode", || encoded(picture, inputs.format, arguments));
+    let bytes = timing.measure("encode", || encoded(picture, inputs));
     let bytes = bytes.map_err(Failure::input)?;
     timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();

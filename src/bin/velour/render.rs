@@ -6,7 +6,7 @@ use velour::file::write_atomically;
 use velour::picture::Format;
 use velour::renderer::device::{self, DeviceError, Gpu};
 use velour::renderer::{Offscreen, RenderError};
-use velour::scene::{Layering, Scene, Settings};
+use velour::scene::{Edits, Layering, Scene};
 
 use crate::console::say;
 use crate::failure::Failure;
@@ -40,7 +40,7 @@ fn samples(text: &str) -> Result<u32, String> {
 pub fn run(arguments: &Render) -> Result<(), Failure> {
     let mut timing = Timing::default();
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
-    check_real_time(&inputs.settings)?;
+    check_real_time(&inputs.edits)?;
     let gpu =
         match timing.measure("device", || pollster::block_on(device::open_offscreen(arguments.adapter.as_deref()))) {
             Err(DeviceError::NoAdapter) if arguments.adapter.is_none() => {
@@ -56,14 +56,13 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
 }
 
 /// Refuses what takes a path tracer.
-fn check_real_time(settings: &Settings) -> Result<(), Failure> {
-    let own = settings.material_overrides.values();
-    for overrides in own.chain([&settings.overrides]) {
-        if let Some(model) = overrides.sheen_model.filter(|model| !model.is_real_time()) {
+pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
+    for edits in edits.materials.values().chain([&edits.every_material]) {
+        if let Some(model) = edits.sheen_model.filter(|model| !model.is_real_time()) {
             let name = model.name();
             return Err(Failure::input(format!("--sheen-model {name} takes a path tracer: use `velour reference`")));
         }
-        if overrides.layering == Some(Layering::Walk) {
+        if edits.layering == Some(Layering::Walk) {
             return Err(Failure::input("--layering walk takes a path tracer: use `velour reference`"));
         }
     }
@@ -72,20 +71,20 @@ fn check_real_time(settings: &Settings) -> Result<(), Failure> {
 
 /// The picture's file, in memory.
 fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> Result<Vec<u8>, Failure> {
-    let Inputs { format, scene, table, settings, .. } = inputs;
-    let (camera, samples, size) = (inputs.camera(), arguments.msaa, arguments.picture.size);
+    let Inputs { format, table, .. } = inputs;
+    let (drawn, camera) = (inputs.drawn(), inputs.camera());
+    let (samples, size, settings) = (arguments.msaa, arguments.picture.size, &drawn.settings);
     let encoded = match format {
         Format::Png => {
-            let renderer = timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, scene, settings));
+            let renderer = timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, &drawn));
             let mut renderer = renderer.map_err(failure)?;
-            let tone = arguments.picture.tonemap.into();
-            let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, camera, size, settings, tone)));
+            let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, &camera, size, settings)));
             timing.measure("encode", || Ok(picture?.to_png()))
         }
         Format::Exr => {
-            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, scene, settings));
+            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, &drawn));
             let mut renderer = renderer.map_err(failure)?;
-            let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, camera, size, settings)));
+            let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, &camera, size, settings)));
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };

@@ -7,18 +7,21 @@ use velour::file::{check_writable, write_atomically};
 use velour::renderer::Offscreen;
 use velour::renderer::device::{self, DeviceError};
 use velour::scene::assets::DRAPE;
-use velour::scene::{Scene, Settings, gltf};
+use velour::scene::{Edits, Scene, gltf};
 use velour::table::SheenTable;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
-use crate::{render, without_device};
+use crate::{render, state, without_device};
 
 /// The flags of `velour view`.
 #[derive(Args)]
 pub struct View {
     /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]
     pub scene: Option<PathBuf>,
+    /// What the viewer has saved: camera, lights, materials
+    #[arg(long, value_name = "FILE")]
+    pub state: Option<PathBuf>,
 }
 
 pub fn run(arguments: &View) -> Result<(), Failure> {
@@ -26,11 +29,13 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
         Some(path) => gltf::load(path).map_err(Failure::input)?,
         None => DRAPE.load().map_err(Failure::input)?,
     };
+    let edits = arguments.state.as_ref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
+    render::check_real_time(&edits)?;
     let name = arguments.scene.as_ref().map_or(DRAPE.name.into(), |path| path.display().to_string());
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
     let event_loop = velour::viewer::event_loop().map_err(no_display)?;
     scene.notices.iter().for_each(complain);
-    velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
+    velour::viewer::run(event_loop, &name, (scene, edits), SheenTable::embedded()).map_err(Failure::device)
 }
 
 /// The viewer on the default scene; without a display, the picture that it would show.
@@ -38,7 +43,8 @@ pub fn run_or_render_default() -> Result<(), Failure> {
     let scene = DRAPE.load().map_err(Failure::input)?;
     match velour::viewer::event_loop() {
         Ok(event_loop) => {
-            velour::viewer::run(event_loop, DRAPE.name, scene, SheenTable::embedded()).map_err(Failure::device)
+            velour::viewer::run(event_loop, DRAPE.name, (scene, Edits::default()), SheenTable::embedded())
+                .map_err(Failure::device)
         }
         Err(no_display) => {
             let output = Path::new("velour.png");
@@ -53,14 +59,12 @@ pub fn run_or_render_default() -> Result<(), Failure> {
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SIZE: [u32; 2] = [1280, 720];
     check_writable(output).map_err(Failure::input)?;
-    let settings = Settings::default();
+    let edits = Edits::default();
     let picture = match pollster::block_on(device::open_offscreen(None)) {
-        Err(DeviceError::NoAdapter) => {
-            without_device::plain(scene, &settings, SIZE)?.display(settings.exposure, Default::default())
-        }
+        Err(DeviceError::NoAdapter) => without_device::plain(scene, &edits, SIZE)?,
         gpu => {
             let gpu = gpu.map_err(Failure::device)?;
-            gpu.block_on(Offscreen::screenshot(&gpu, scene, &settings, SIZE)).map_err(render::failure)?
+            gpu.block_on(Offscreen::screenshot(&gpu, scene, &edits, SIZE)).map_err(render::failure)?
         }
     };
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)

@@ -4,9 +4,9 @@ use velour::reference::{Effort, Filter, Options, SpecularModel};
 #[cfg(feature = "window")]
 use {
     crate::progress::with_progress,
-    velour::picture::LinearImage,
+    velour::picture::DisplayImage,
     velour::reference::Reference,
-    velour::scene::{Scene, Settings},
+    velour::scene::{Drawn, Edits, Scene},
     velour::table::SheenTable,
 };
 
@@ -34,15 +34,17 @@ pub fn render(arguments: &PictureArgs, msaa: u32, inputs: &Inputs, mut timing: T
 
 /// What the viewer shows of a scene, without shadows.
 #[cfg(feature = "window")]
-pub fn plain(scene: &Scene, settings: &Settings, size: [u32; 2]) -> Result<LinearImage, Failure> {
+pub fn plain(scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<DisplayImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
-    let renderer = Reference::new(scene, settings, &SheenTable::embedded(), options).map_err(reference::failure)?;
+    let drawn = Drawn::new(scene, edits);
+    let renderer = Reference::new(&drawn, &SheenTable::embedded(), options).map_err(reference::failure)?;
     complain(NO_DEVICE);
     let picture = with_progress("reference", |step| {
-        renderer.render(&scene.cameras[0], size, EFFORT, |done, all| {
+        renderer.render(&edits.camera(scene), size, EFFORT, |done, all| {
             step(done as usize, all as usize);
             true
         })
     });
-    Ok(picture.map_err(reference::failure)?.radiance)
+    let radiance = picture.map_err(reference::failure)?.radiance;
+    Ok(radiance.display(drawn.settings.exposure, drawn.settings.tone))
 }

@@ -2,7 +2,7 @@
 
 use crate::picture::{DisplayImage, ToneCurve};
 use crate::reference::{Effort, Options, Reference, ReferenceError};
-use crate::scene::{Scene, SceneError, Settings};
+use crate::scene::{Drawn, Edits, Scene, SceneError};
 use crate::table::SheenTable;
 
 /// A picture to be made.
@@ -62,8 +62,9 @@ impl Shot {
         ]
     }
 
-    pub fn take(&self, scene: &Scene, settings: &Settings, progress: &Progress) -> Result<DisplayImage, PlateError> {
-        let reference = Reference::new(scene, settings, &SheenTable::embedded(), self.options)?;
+    pub fn take(&self, scene: &Scene, edits: &Edits, progress: &Progress) -> Result<DisplayImage, PlateError> {
+        let drawn = Drawn::new(scene, edits);
+        let reference = Reference::new(&drawn, &SheenTable::embedded(), self.options)?;
         let effort = Effort { samples: self.samples, seed: 0 };
         let picture = reference.render(&scene.cameras[0], self.size, effort, progress)?;
         if picture.samples < self.samples {

@@ -3,7 +3,7 @@
 use super::plate::{Plate, Progress, Shot};
 use crate::reference::Options;
 use crate::scene::assets::{DRAPE, DUST};
-use crate::scene::{Layering, Overrides, Scene, Settings};
+use crate::scene::{Edits, Layering, MaterialEdits, Scene};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -24,16 +24,15 @@ fn cloth(name: &str, alpha: Option<f32>) -> Plate {
     let make = move |progress: &Progress| {
         let scene = DRAPE.load()?;
         let velvet = named(&scene, "velvet");
-        let overrides = Overrides {
+        let edits = MaterialEdits {
             alpha: Some(alpha.unwrap_or(1.0)),
             sheen_color: Some(if alpha.is_some() { COLOR } else { Vec3::ZERO }),
             layering: Some(Layering::Gltf),
-            ..Overrides::default()
+            base_color: Some(Vec3::new(0.05, 0.07, 0.12)),
+            ..MaterialEdits::default()
         };
-        let mut scene = scene;
-        scene.materials[velvet].base_color = Vec3::new(0.05, 0.07, 0.12);
-        let settings = Settings { material_overrides: BTreeMap::from([(velvet, overrides)]), ..Settings::default() };
-        shot().take(&scene, &settings, progress)
+        let edits = Edits { materials: BTreeMap::from([(velvet, edits)]), ..Edits::default() };
+        shot().take(&scene, &edits, progress)
     };
     let mut settings = vec![("scene", "drape.glb, velvet's base 0.05, 0.07, 0.12".to_owned()), ("sheen", says)];
     settings.extend(shot().settings());
@@ -46,9 +45,9 @@ fn dust() -> Plate {
     let make = |progress: &Progress| {
         let scene = DUST.load()?;
         let dusty = named(&scene, "dusty");
-        let overrides = Overrides { alpha: Some(ALPHA), ..Overrides::default() };
-        let settings = Settings { material_overrides: BTreeMap::from([(dusty, overrides)]), ..Settings::default() };
-        shot().take(&scene, &settings, progress)
+        let edits = MaterialEdits { alpha: Some(ALPHA), ..MaterialEdits::default() };
+        let edits = Edits { materials: BTreeMap::from([(dusty, edits)]), ..Edits::default() };
+        shot().take(&scene, &edits, progress)
     };
     let mut settings = vec![("scene", "dust.glb".to_owned()), ("sheen", format!("alpha {ALPHA}, the asset's C_sheen"))];
     settings.extend(shot().settings());

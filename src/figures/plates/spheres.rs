@@ -6,7 +6,7 @@ use super::stage::{DISTANCE, EYE, HALF, RADIANCE, YFOV, window};
 use crate::picture::DisplayImage;
 use crate::reference::Options;
 use crate::scene::{
-    Camera, Instance, Layering, Light, Material, Mesh, Overrides, Polygon, Projection, Scene, Settings, Sheen,
+    Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection, Scene, Sheen,
     SheenModel,
 };
 use glam::{Mat4, Vec3};
@@ -79,9 +79,10 @@ fn fuzzy(alpha: f32, base: Vec3) -> Material {
     Material { sheen: Some(Sheen::new(Vec3::ONE, alpha)), ..Material::matte("sphere", base) }
 }
 
-fn look(model: SheenModel, layering: Layering) -> Settings {
-    let overrides = Overrides { sheen_model: Some(model), layering: Some(layering), ..Overrides::default() };
-    Settings { overrides, lights_visible: false, ..Settings::default() }
+fn look(model: SheenModel, layering: Layering) -> Edits {
+    let every_material =
+        MaterialEdits { sheen_model: Some(model), layering: Some(layering), ..MaterialEdits::default() };
+    Edits { every_material, lights_visible: Some(false), ..Edits::default() }
 }
 
 fn shot(side: u32, samples: u64, exposure: f32) -> Shot {
@@ -98,16 +99,16 @@ fn says(degrees: f32, base: Vec3) -> String {
 }
 
 /// A plate of the sphere.
-fn plate(name: String, (material, degrees): (Material, f32), settings: Settings, shot: Shot) -> Plate {
+fn plate(name: String, (material, degrees): (Material, f32), edits: Edits, shot: Shot) -> Plate {
     let alpha = material.sheen.map_or(0.0, |sheen| sheen.roughness);
-    let (model, layering) =
-        (settings.overrides.sheen_model.unwrap_or_default(), settings.overrides.layering.unwrap_or_default());
+    let MaterialEdits { sheen_model, layering, .. } = edits.every_material;
+    let (model, layering) = (sheen_model.unwrap_or_default(), layering.unwrap_or_default());
     let mut lines = vec![
         ("scene", says(degrees, material.base_color)),
         ("sheen", format!("{}, alpha {alpha}, C_sheen 1; layering {layering:?}", model.name()).to_lowercase()),
     ];
     lines.extend(shot.settings());
-    let make = move |progress: &Progress| shot.take(&scene(material.clone(), degrees), &settings, progress);
+    let make = move |progress: &Progress| shot.take(&scene(material.clone(), degrees), &edits, progress);
     Plate { name, settings: lines, make: Box::new(make) }
 }
 

@@ -107,7 +107,7 @@ fn worth(color: DVec3, radiance: DVec3) -> f64 {
 mod tests {
     use super::super::lights::Lights;
     use super::*;
-    use crate::scene::{Light, Polygon, Scene};
+    use crate::scene::{Drawn, Edits, Light, Polygon, Scene};
     use glam::{DMat3, Vec3};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64;
@@ -140,7 +140,8 @@ mod tests {
     fn lights_and_lobes_find_the_same_light() {
         const SAMPLES: u32 = 40_000;
         let scene = scene();
-        let lights = Lights::new(&scene);
+        let drawn = Drawn::new(&scene, &Edits::default());
+        let lights = Lights::new(&drawn);
         let mut rng = Pcg64::seed_from_u64(3);
         let up = [DVec3::Z, DVec3::new(0.3, -0.2, 0.9).normalize()];
         for (up, most) in up.into_iter().flat_map(|up| [(up, 1), (up, 3), (up, 100)]) {

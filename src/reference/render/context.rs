@@ -5,7 +5,7 @@ use super::lights::Lights;
 use super::models::Models;
 use super::options::Options;
 use super::world::World;
-use crate::scene::{Scene, Settings};
+use crate::scene::{Drawn, Settings};
 use crate::table::SheenTable;
 
 /// A scene as paths go through it.
@@ -18,17 +18,12 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub fn new(
-        scene: &'a Scene,
-        settings: &'a Settings,
-        table: &SheenTable,
-        options: Options,
-    ) -> Result<Self, ReferenceError> {
+    pub fn new(drawn: &'a Drawn, table: &SheenTable, options: Options) -> Result<Self, ReferenceError> {
         Ok(Self {
-            world: World::new(scene, settings)?,
-            lights: Lights::new(scene),
-            models: Models::new(scene, settings, table, options.specular),
-            settings,
+            world: World::new(drawn)?,
+            lights: Lights::new(drawn),
+            models: Models::new(drawn, table, options.specular),
+            settings: &drawn.settings,
             options,
         })
     }

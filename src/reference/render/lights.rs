@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
 use super::convex::{Convex, Outline, clip, cosine_share, edges};
-use crate::scene::{Light, Polygon, PunctualKind, PunctualLight, Scene};
+use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 use crate::table::Ltc;
 
 /// A point is in a light's plane where its distance from it is at most this share of the largest coordinate, as in real
@@ -53,10 +53,10 @@ pub(super) struct Lit {
 }
 
 impl<'a> Lights<'a> {
-    pub fn new(scene: &'a Scene) -> Self {
-        let lit = scene.lights.iter().filter(|light| light.radiance != glam::Vec3::ZERO);
+    pub fn new(drawn: &'a Drawn) -> Self {
+        let lit = drawn.lights.iter().filter(|light| light.radiance != glam::Vec3::ZERO);
         let parts = lit.flat_map(|light| light.polygons.iter().flat_map(move |polygon| parts(light, polygon)));
-        Self { parts: parts.collect(), punctual: &scene.punctual_lights }
+        Self { parts: parts.collect(), punctual: &drawn.scene.punctual_lights }
     }
 
     /// The parts that a point sees, in the point's frame; `up` is the interpolated normal in it, from which a normal

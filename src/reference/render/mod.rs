@@ -54,7 +54,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use uniforms::{Sample, Uniforms};
 
-use crate::scene::{Camera, Scene, Settings};
+use crate::scene::{Camera, Drawn};
 use crate::table::SheenTable;
 
 /// Batches that the samples are divided into, where there are enough of them: errors are estimated from the batches'
@@ -82,13 +82,8 @@ impl<'a> Reference<'a> {
     }
 
     /// Builds the hierarchy over everything that is drawn.
-    pub fn new(
-        scene: &'a Scene,
-        settings: &'a Settings,
-        table: &SheenTable,
-        options: Options,
-    ) -> Result<Self, ReferenceError> {
-        Ok(Self { context: Context::new(scene, settings, table, options)?, rays: AtomicU64::new(0) })
+    pub fn new(drawn: &'a Drawn, table: &SheenTable, options: Options) -> Result<Self, ReferenceError> {
+        Ok(Self { context: Context::new(drawn, table, options)?, rays: AtomicU64::new(0) })
     }
 
     /// Triangles of all instances.

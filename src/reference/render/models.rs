@@ -9,7 +9,7 @@ use super::surface::SheenAt;
 use crate::models::{
     Bsdf, Burley, ContyKulla, Ggx, LtcSheen, NeubeltPettineo, Patry, Schlick, SheenWalk, SlabSheen, Terminator,
 };
-use crate::scene::{Material, Scene, Settings, SheenModel, TextureSlot};
+use crate::scene::{Drawn, Material, SheenModel, TextureSlot};
 use crate::table::{GgxLobe, GgxTable, Ltc, SheenTable, SlabTable};
 
 /// Textured roughnesses are rounded to this many steps, except for the transformed cosines.
@@ -50,11 +50,9 @@ pub(super) struct Models {
 }
 
 impl Models {
-    pub fn new(scene: &Scene, settings: &Settings, sheen_table: &SheenTable, specular: SpecularModel) -> Self {
-        let of_material = |(index, material): (usize, &Material)| {
-            let look = settings.sheen_of(index, material);
-            let rough = material.texture(TextureSlot::SheenRoughness).is_some()
-                && look.is_some_and(|look| look.roughness_is_textured);
+    pub fn new(drawn: &Drawn, sheen_table: &SheenTable, specular: SpecularModel) -> Self {
+        let of_material = |material: &Material| {
+            let rough = material.texture(TextureSlot::SheenRoughness).is_some();
             let base = material.texture(TextureSlot::MetallicRoughness).is_some();
             OfMaterial { sheen: Steps::new(rough), walk: Steps::new(rough), facets: Steps::new(base) }
         };
@@ -63,7 +61,7 @@ impl Models {
             ggx_table: GgxTable::embedded(),
             slab_table: OnceLock::new(),
             specular,
-            materials: scene.materials.iter().enumerate().map(of_material).collect(),
+            materials: drawn.materials.iter().map(of_material).collect(),
         }
     }
 

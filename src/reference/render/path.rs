@@ -29,7 +29,7 @@ pub(super) fn radiance(context: &Context, ray: &Ray, [mut near, far]: [f64; 2], 
         sample.rays += 1;
         let Some(hit) = context.world.nearest_seen(ray, [near, far]) else { break };
         if hit.opacity > 0.0 {
-            let surface = Surface::new(&context.world, context.settings, ray, &hit);
+            let surface = Surface::new(&context.world, ray, &hit);
             radiance += seen * hit.opacity * leaving(context, surface, sample);
         }
         seen *= 1.0 - hit.opacity;
@@ -82,7 +82,7 @@ fn met(context: &Context, ray: &Ray, sample: &mut Sample) -> Option<(Surface, bo
         if hit.opacity >= 1.0 || sample.uniforms.next()[0] < hit.opacity {
             // The backs of one-sided surfaces are black.
             let is_seen = hit.front || world.material(&hit).double_sided;
-            let surface = Surface::new(world, context.settings, ray, &hit);
+            let surface = Surface::new(world, ray, &hit);
             return is_seen.then(|| (surface, world.is_light(&hit)));
         }
         near = hit.distance.next_up().max(hit.distance + world.apart);

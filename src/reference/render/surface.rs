@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::world::{Hit, World};
 use crate::bvh::Ray;
-use crate::scene::{Layering, Settings, SheenModel, TextureSlot};
+use crate::scene::{Layering, SheenModel, TextureSlot};
 
 /// A point of a surface as it is seen from one direction, with factors and textures multiplied.
 pub(super) struct Surface {
@@ -57,7 +57,7 @@ impl SheenAt {
 }
 
 impl Surface {
-    pub fn new(world: &World, settings: &Settings, ray: &Ray, hit: &Hit) -> Self {
+    pub fn new(world: &World, ray: &Ray, hit: &Hit) -> Self {
         let material = world.material(hit);
         let index = world.material_index(hit);
         let p_world = ray.at(hit.distance);
@@ -91,7 +91,7 @@ impl Surface {
             // Tints may be above 1.
             f0: (material.dielectric_f0().as_dvec3() * strength * tint).min(DVec3::splat(f90)),
             f90,
-            sheen: sheen(world, settings, hit),
+            sheen: sheen(world, hit),
             emission: world.emission(hit) * texel(TextureSlot::Emission).map_or(DVec3::ONE, |texel| texel.truncate()),
             unlit: material.unlit,
             occlusion,
@@ -109,20 +109,18 @@ impl Surface {
     }
 }
 
-fn sheen(world: &World, settings: &Settings, hit: &Hit) -> Option<SheenAt> {
-    let index = world.material_index(hit);
-    let look = settings.sheen_of(index, world.material(hit))?;
-    let texel = |slot, counts: bool| if counts { world.texel(hit, slot) } else { None };
-    let tint = texel(TextureSlot::SheenColor, look.color_is_textured).map_or(DVec3::ONE, |texel| texel.truncate());
-    let share = texel(TextureSlot::SheenWeight, look.color_is_textured).map_or(1.0, |texel| texel.x);
-    let rough = texel(TextureSlot::SheenRoughness, look.roughness_is_textured).map_or(1.0, |texel| texel.w);
-    let weight = f64::from(look.sheen.weight) * share;
+fn sheen(world: &World, hit: &Hit) -> Option<SheenAt> {
+    let sheen = world.material(hit).sheen?;
+    let tint = world.texel(hit, TextureSlot::SheenColor).map_or(DVec3::ONE, |texel| texel.truncate());
+    let share = world.texel(hit, TextureSlot::SheenWeight).map_or(1.0, |texel| texel.x);
+    let rough = world.texel(hit, TextureSlot::SheenRoughness).map_or(1.0, |texel| texel.w);
+    let weight = f64::from(sheen.weight) * share;
     Some(SheenAt {
-        color: look.sheen.color.as_dvec3() * tint * weight,
+        color: sheen.color.as_dvec3() * tint * weight,
         weight,
-        alpha: (f64::from(look.sheen.roughness) * rough).powf(look.roughness_map.exponent().into()).clamp(0.0, 1.0),
-        model: look.model,
-        layering: settings.layering_of(index),
+        alpha: sheen.roughness_map.alpha_from_roughness(f64::from(sheen.roughness) * rough),
+        model: sheen.model,
+        layering: sheen.layering,
     })
 }
 

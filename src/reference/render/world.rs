@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::error::ReferenceError;
 use super::texels::texel;
 use crate::bvh::{Bvh, Meeting, Ray, Triangle};
-use crate::scene::{AlphaMode, DrawnInstances, Instance, Material, Mesh, Scene, Settings, TextureSlot};
+use crate::scene::{AlphaMode, Drawn, Instance, Material, Mesh, Scene, TextureSlot};
 
 /// The most triangles of all instances together; each takes about 120 bytes.
 const TRIANGLES_MAX: usize = 1 << 25;
@@ -18,6 +18,7 @@ const OPACITY_LEAST: f64 = 1e-6;
 /// The triangles of a scene, each where it stands in the world.
 pub(super) struct World<'a> {
     pub scene: &'a Scene,
+    drawn: &'a Drawn<'a>,
     places: Vec<Place>,
     bvh: Bvh<Triangle>,
     /// The distance in metres within which a ray does not meet the surface on which it starts.
@@ -47,11 +48,11 @@ pub(super) struct Hit {
 }
 
 impl<'a> World<'a> {
-    pub fn new(scene: &'a Scene, settings: &Settings) -> Result<Self, ReferenceError> {
-        let instances = DrawnInstances::new(scene, settings);
-        let drawn: Vec<usize> = (0..scene.instances.len()).filter(|&index| instances.is_drawn(index)).collect();
-        let count = |&index: &usize| scene.meshes[scene.instances[index].mesh].indices.len() / 3;
-        let triangles: usize = drawn.iter().map(count).sum();
+    pub fn new(drawn: &'a Drawn) -> Result<Self, ReferenceError> {
+        let (scene, instances) = (drawn.scene, &drawn.instances);
+        let seen: Vec<usize> = (0..instances.len()).filter(|&index| drawn.is_drawn(index)).collect();
+        let count = |&index: &usize| scene.meshes[instances[index].mesh].indices.len() / 3;
+        let triangles: usize = seen.iter().map(count).sum();
         if triangles > TRIANGLES_MAX {
             return Err(ReferenceError::Triangles { triangles, most: TRIANGLES_MAX });
         }
@@ -59,12 +60,12 @@ impl<'a> World<'a> {
             world_from_mesh: instance.world_from_mesh.as_dmat4(),
             world_from_normal: instance.world_from_normal().as_dmat3(),
             mirrors: instance.mirrors(),
-            emission: instances.emission(index).as_dvec3(),
-            is_light: instances.light(index).is_some(),
+            emission: drawn.emission(index).as_dvec3(),
+            is_light: drawn.light(index).is_some(),
         };
-        let places: Vec<Place> = scene.instances.iter().enumerate().map(place).collect();
+        let places: Vec<Place> = instances.iter().enumerate().map(place).collect();
         let of_instance = |&index: &usize| {
-            let mesh = &scene.meshes[scene.instances[index].mesh];
+            let mesh = &scene.meshes[instances[index].mesh];
             let place = &places[index];
             let triangles = mesh.indices.as_chunks::<3>().0.par_iter().enumerate();
             triangles.map(move |(at, corners)| {
@@ -73,11 +74,11 @@ impl<'a> World<'a> {
                 Triangle::new(corners.map(corner), index as u32, at as u32)
             })
         };
-        let triangles: Vec<Triangle> = drawn.par_iter().flat_map(of_instance).collect();
+        let triangles: Vec<Triangle> = seen.par_iter().flat_map(of_instance).collect();
         let bounds = scene.bounds();
         let size = (bounds.max - bounds.min).max_element().max(bounds.max.abs().max(bounds.min.abs()).max_element());
         let apart = if size.is_finite() { 1e-9 * f64::from(size) } else { 0.0 };
-        Ok(Self { scene, places, bvh: Bvh::new(triangles), apart })
+        Ok(Self { scene, drawn, places, bvh: Bvh::new(triangles), apart })
     }
 
     pub fn triangles(&self) -> usize {
@@ -85,11 +86,11 @@ impl<'a> World<'a> {
     }
 
     fn mesh_of(&self, triangle: &Triangle) -> &'a Mesh {
-        &self.scene.meshes[self.scene.instances[triangle.instance as usize].mesh]
+        &self.scene.meshes[self.drawn.instances[triangle.instance as usize].mesh]
     }
 
     fn material_of(&self, triangle: &Triangle) -> &'a Material {
-        &self.scene.materials[self.mesh_of(triangle).material]
+        &self.drawn.materials[self.mesh_of(triangle).material]
     }
 
     /// What a ray has met; `None` where nothing is there: in a mask's hole.

@@ -136,7 +136,7 @@ fn read_fuzz(fuzz: &Fuzz, uses: &mut Uses) -> Result<Sheen, String> {
     uses.add("fuzzTexture", TextureSlot::SheenWeight, &fuzz.fuzz_texture)?;
     uses.add("fuzzColorTexture", TextureSlot::SheenColor, &fuzz.fuzz_color_texture)?;
     uses.add("fuzzRoughnessTexture", TextureSlot::SheenRoughness, &fuzz.fuzz_roughness_texture)?;
-    Ok(Sheen { color: color.into(), roughness, weight })
+    Ok(Sheen { weight, ..Sheen::new(color.into(), roughness) })
 }
 
 fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {

@@ -1,9 +1,9 @@
 //! Lights, views and settings of scenes made in memory.
 
 mod drawn;
+mod edits;
 mod emission;
 mod islands;
-mod settings;
 pub mod shapes;
 mod tangents;
 mod textures;

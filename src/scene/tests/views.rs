@@ -6,7 +6,9 @@ use glam::{Affine2, Mat4, Quat, Vec3};
 
 use super::shapes::{cube, grid, scene, sphere};
 use crate::scene::notices::Notices;
-use crate::scene::{Camera, Light, Projection, Scene, TextureSlot, TextureUse, framing, lights, rig};
+use crate::scene::{
+    Camera, Drawn, Edits, Light, LightEdits, Projection, Scene, TextureSlot, TextureUse, framing, lights, rig,
+};
 
 /// A mesh in all kinds of sizes, with a camera and lights.
 fn sets() -> Vec<Scene> {
@@ -227,12 +229,12 @@ fn cameras_are_found_by_name_and_number() {
 
 #[test]
 fn a_light_moves_with_its_emitter() {
-    let mut scene = added(scene(cube(), Mat4::IDENTITY));
-    let before = scene.clone();
+    let before = added(scene(cube(), Mat4::IDENTITY));
     let offset = Vec3::new(1.0, -2.0, 3.0);
-    scene.move_light(1, offset);
+    let moved = LightEdits { position: Some(before.lights[1].position() + offset), ..LightEdits::default() };
+    let scene = Drawn::new(&before, &Edits { lights: [(1, moved)].into(), ..Edits::default() });
     assert!((scene.lights[1].position() - before.lights[1].position() - offset).length() < 1e-5);
-    let (mesh, instance) = (&scene.meshes[2], &scene.instances[2]);
+    let (mesh, instance) = (&before.meshes[2], &scene.instances[2]);
     assert_eq!(scene.lights[1].instance, 2);
     for (corner, position) in scene.lights[1].polygons[0].contours[0].iter().zip(&mesh.positions) {
         let near = |corner: &Vec3| corner.distance(instance.world_from_mesh.transform_point3(*position)) < 1e-5;

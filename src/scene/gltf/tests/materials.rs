@@ -41,7 +41,7 @@ fn defaults_are_the_specifications() {
     let read = material(json!({ "extensions": extensions }));
     assert_eq!(read, Material { sheen: Some(Sheen::new(Vec3::ZERO, 0.0)), ..expected.clone() });
     let read = material(json!({ "extensions": { "KHR_materials_fuzz": {} } }));
-    let fuzz = Sheen { color: Vec3::ONE, roughness: 0.5, weight: 0.0 };
+    let fuzz = Sheen { weight: 0.0, ..Sheen::new(Vec3::ONE, 0.5) };
     assert_eq!(read, Material { sheen: Some(fuzz), ..expected });
     assert_eq!(material(json!({ "alphaMode": "MASK" })).alpha_mode, AlphaMode::Mask { cutoff: 0.5 });
 }
@@ -156,7 +156,7 @@ fn fuzz_wins_over_sheen() {
         let sheen =
             json!({ "sheenColorFactor": [1, 1, 1], "sheenColorTexture": texture, "sheenRoughnessTexture": texture });
         let read = material(json!({ "extensions": { "KHR_materials_fuzz": fuzz, "KHR_materials_sheen": sheen } }));
-        assert_eq!(read.sheen, Some(Sheen { color: Vec3::ZERO, roughness: 0.5, weight: factor }));
+        assert_eq!(read.sheen, Some(Sheen { weight: factor, ..Sheen::new(Vec3::ZERO, 0.5) }));
         assert_eq!(read.texture(TextureSlot::SheenColor), None);
         assert_eq!(read.texture(TextureSlot::SheenRoughness), None);
         assert_eq!(read.texture(TextureSlot::SheenWeight), plain_use(0));

@@ -1,28 +1,31 @@
-//! A camera that circles a target: drag to turn, pan and zoom.
+//! A camera that circles a target: it is turned, panned and zoomed.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
-use crate::scene::{Camera, Projection};
+use super::{Camera, Projection};
 
-/// Largest elevation, a little short of straight up and down, where the azimuth would lose its meaning.
-const STEEPEST: f32 = FRAC_PI_2 - 0.01;
-
-/// The state of the orbiting camera; y is up.
-#[derive(Clone, Debug, PartialEq)]
+/// A view that circles a target; y is up.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    target: Vec3,
+    /// What the view is centred on, metres.
+    pub target: Vec3,
     /// Azimuth of the eye around +y, radians; 0 is towards +z.
-    azimuth: f32,
-    /// Elevation of the eye above the horizontal plane, radians.
-    elevation: f32,
+    pub azimuth: f32,
+    /// Elevation of the eye above the horizontal plane, radians, short of straight up and down.
+    pub elevation: f32,
     /// From the target to the eye, metres, > 0.
-    distance: f32,
-    projection: Projection,
+    pub distance: f32,
+    /// How space is mapped to the picture; of a perspective one, the near and far planes follow the distance.
+    pub projection: Projection,
 }
 
 impl Orbit {
+    /// The greatest elevation in radians, a little short of straight up and down, where the azimuth would lose its
+    /// meaning.
+    pub const STEEPEST: f32 = FRAC_PI_2 - 0.01;
+
     /// Starts at the camera; the target is the point on its axis that is nearest to `center`. A camera's roll is lost.
     pub fn new(camera: &Camera, center: Vec3) -> Self {
         let eye = camera.world_from_camera.w_axis.truncate();
@@ -30,7 +33,7 @@ impl Orbit {
         let distance = (eye - center).dot(back);
         // A camera that looks away from the scene turns around a point in front of it.
         let distance = if distance > 0.0 { distance } else { eye.distance(center).max(1e-3) };
-        let elevation = back.y.clamp(-1.0, 1.0).asin().clamp(-STEEPEST, STEEPEST);
+        let elevation = back.y.clamp(-1.0, 1.0).asin().clamp(-Self::STEEPEST, Self::STEEPEST);
         Self {
             target: eye - distance * back,
             azimuth: back.x.atan2(back.z),
@@ -59,7 +62,7 @@ impl Orbit {
     /// Turns by a drag of this many view heights, to the right and down. One view height is half a turn.
     pub fn turn(&mut self, drag: Vec2) {
         self.azimuth = (self.azimuth - drag.x * 0.5 * TAU).rem_euclid(TAU);
-        self.elevation = (self.elevation + drag.y * 0.5 * TAU).clamp(-STEEPEST, STEEPEST);
+        self.elevation = (self.elevation + drag.y * 0.5 * TAU).clamp(-Self::STEEPEST, Self::STEEPEST);
     }
 
     /// Moves such that the target follows a drag of this many view heights, to the right and down.
@@ -77,6 +80,13 @@ impl Orbit {
         };
         // Limits within which floats still serve, for scenes of any size.
         *size = (*size / factor).clamp(1e-9, 1e12);
+    }
+
+    /// Sets the distances between which the view shows something, metres.
+    pub(super) fn set_planes(&mut self, nearest: f32, farthest: f32) {
+        let (Projection::Perspective { near, far, .. } | Projection::Orthographic { near, far, .. }) =
+            &mut self.projection;
+        (*near, *far) = (nearest, farthest);
     }
 
     /// Metres that the view shows vertically at the target.

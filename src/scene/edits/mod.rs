@@ -1,0 +1,208 @@
+//! What a user changes in a scene, by flags, in a file or in the viewer's panel: one value for all of them.
+//!
+//! The scene as loaded is never changed: what is drawn is a function of both ([`Drawn`](super::Drawn)). Edits are small
+//! (they hold what differs, and no more), so that a history of them costs next to nothing.
+
+mod keys;
+mod selection;
+mod text;
+mod value;
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+
+use super::{Camera, Layering, Lobes, Orbit, RoughnessMap, Scene, Settings, SheenModel};
+use crate::picture::ToneCurve;
+
+pub use keys::Keyed;
+pub use selection::{Kind, UnknownThing, select};
+pub use text::EditsError;
+pub use value::Value;
+
+/// Everything that a user may change in a scene; what is `None`, or not there, stays as it was loaded.
+///
+/// Indices are those of the scene that the edits were made for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edits {
+    /// Which lobes are summed.
+    pub lobes: Option<Lobes>,
+    /// Whether emitters that light the scene are drawn.
+    pub lights_visible: Option<bool>,
+    /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
+    pub ambient: Option<Vec3>,
+    /// A factor of that radiance, >= 0; at 0 its hue is kept.
+    pub ambient_strength: Option<f32>,
+    /// Exposure value of a picture that is shown.
+    pub exposure: Option<f32>,
+    /// Tone curve of a picture that is shown.
+    pub tone: Option<ToneCurve>,
+    /// From where the scene is seen.
+    pub camera: Option<CameraEdit>,
+    /// What is changed in all materials; alpha and the sheen's colour only in those that have a sheen, unless none has.
+    pub every_material: MaterialEdits,
+    /// What is changed in single materials, by their index into `Scene::materials`; it takes precedence over
+    /// `every_material`.
+    pub materials: BTreeMap<usize, MaterialEdits>,
+    /// What is changed in single lights, by their index into `Scene::lights`.
+    pub lights: BTreeMap<usize, LightEdits>,
+}
+
+/// From where the scene is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CameraEdit {
+    /// The scene's camera of this index.
+    Loaded(usize),
+    /// A view that circles a target.
+    Orbit(Orbit),
+}
+
+/// What is changed in a material.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MaterialEdits {
+    /// The sheen's alpha itself, in [0, 1], whatever the roughness map and the textures.
+    pub alpha: Option<f32>,
+    /// The sheen's colour, linear Rec. 709, each in [0, 1], whatever the textures; the layer then covers all of the
+    /// surface.
+    pub sheen_color: Option<Vec3>,
+    /// How alpha follows from the sheen's roughness.
+    pub roughness_map: Option<RoughnessMap>,
+    /// What the sheen's lobe is.
+    pub sheen_model: Option<SheenModel>,
+    /// What the sheen leaves of the base.
+    pub layering: Option<Layering>,
+    /// Linear Rec. 709, each in [0, 1]; multiplied by the material's texture.
+    pub base_color: Option<Vec3>,
+    /// In [0, 1]; multiplied by the material's texture.
+    pub metallic: Option<f32>,
+    /// The base's roughness in [0, 1]; multiplied by the material's texture.
+    pub roughness: Option<f32>,
+}
+
+/// What is changed in a polygon light and in the emitter that is drawn for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightEdits {
+    /// Linear Rec. 709, >= 0.
+    pub radiance: Option<Vec3>,
+    /// A factor of the radiance, >= 0; at 0 its hue is kept.
+    pub strength: Option<f32>,
+    /// Where the mean of its outlines' vertices is moved to, metres.
+    pub position: Option<Vec3>,
+}
+
+impl Edits {
+    /// Edits and then `later` ones, which win. What is changed later in all materials is changed in those, too, that
+    /// had been changed by themselves.
+    pub fn then(mut self, later: &Self) -> Self {
+        let every = later.every_material;
+        for own in self.materials.values_mut() {
+            *own = every.where_set(own).or(*own);
+        }
+        self.every_material = every.or(self.every_material);
+        for (&index, &edits) in &later.materials {
+            let own = self.materials.entry(index).or_default();
+            *own = edits.or(*own);
+        }
+        for (&index, &edits) in &later.lights {
+            let own = self.lights.entry(index).or_default();
+            *own = edits.or(*own);
+        }
+        Self {
+            lobes: later.lobes.or(self.lobes),
+            lights_visible: later.lights_visible.or(self.lights_visible),
+            ambient: later.ambient.or(self.ambient),
+            ambient_strength: later.ambient_strength.or(self.ambient_strength),
+            exposure: later.exposure.or(self.exposure),
+            tone: later.tone.or(self.tone),
+            camera: later.camera.or(self.camera),
+            ..self
+        }
+    }
+
+    /// What they make of the settings.
+    pub fn settings(&self) -> Settings {
+        let default = Settings::default();
+        Settings {
+            lobes: self.lobes.unwrap_or(default.lobes),
+            lights_visible: self.lights_visible.unwrap_or(default.lights_visible),
+            ambient: scaled(self.ambient.unwrap_or(default.ambient), self.ambient_strength),
+            exposure: self.exposure.unwrap_or(default.exposure),
+            tone: self.tone.unwrap_or(default.tone),
+        }
+    }
+
+    /// The camera through which `scene` is seen. Panics where it has none.
+    pub fn camera(&self, scene: &Scene) -> Camera {
+        match self.camera {
+            None => scene.cameras[0].clone(),
+            Some(CameraEdit::Loaded(index)) => scene.cameras[index].clone(),
+            Some(CameraEdit::Orbit(orbit)) => orbit.camera(),
+        }
+    }
+
+    /// What is changed in the material of this index: what is changed in it alone, else what is changed in all.
+    pub fn of_material(&self, index: usize) -> MaterialEdits {
+        self.materials.get(&index).copied().unwrap_or_default().or(self.every_material)
+    }
+
+    /// What is changed in the light of this index.
+    pub fn of_light(&self, index: usize) -> LightEdits {
+        self.lights.get(&index).copied().unwrap_or_default()
+    }
+}
+
+impl MaterialEdits {
+    /// These, and `others` where these are `None`.
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            alpha: self.alpha.or(others.alpha),
+            sheen_color: self.sheen_color.or(others.sheen_color),
+            roughness_map: self.roughness_map.or(others.roughness_map),
+            sheen_model: self.sheen_model.or(others.sheen_model),
+            layering: self.layering.or(others.layering),
+            base_color: self.base_color.or(others.base_color),
+            metallic: self.metallic.or(others.metallic),
+            roughness: self.roughness.or(others.roughness),
+        }
+    }
+
+    /// Those of these that `others` have, too.
+    fn where_set(self, others: &Self) -> Self {
+        Self {
+            alpha: self.alpha.filter(|_| others.alpha.is_some()),
+            sheen_color: self.sheen_color.filter(|_| others.sheen_color.is_some()),
+            roughness_map: self.roughness_map.filter(|_| others.roughness_map.is_some()),
+            sheen_model: self.sheen_model.filter(|_| others.sheen_model.is_some()),
+            layering: self.layering.filter(|_| others.layering.is_some()),
+            base_color: self.base_color.filter(|_| others.base_color.is_some()),
+            metallic: self.metallic.filter(|_| others.metallic.is_some()),
+            roughness: self.roughness.filter(|_| others.roughness.is_some()),
+        }
+    }
+
+    /// Whether they give a material a sheen that has none.
+    pub fn gives_sheen(&self) -> bool {
+        self.alpha.is_some() || self.sheen_color.is_some()
+    }
+}
+
+impl LightEdits {
+    /// These, and `others` where these are `None`.
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            radiance: self.radiance.or(others.radiance),
+            strength: self.strength.or(others.strength),
+            position: self.position.or(others.position),
+        }
+    }
+
+    /// The radiance of a light that was loaded with `radiance`.
+    pub fn radiance(&self, radiance: Vec3) -> Vec3 {
+        scaled(self.radiance.unwrap_or(radiance), self.strength)
+    }
+}
+
+/// A radiance times its strength, kept finite.
+fn scaled(radiance: Vec3, strength: Option<f32>) -> Vec3 {
+    (strength.unwrap_or(1.0) * radiance).min(Vec3::MAX)
+}

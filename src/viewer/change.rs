@@ -1,0 +1,68 @@
+//! What a change of the edits makes necessary.
+
+use crate::scene::{Edits, Settings};
+
+/// What a change makes necessary, from least to most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Change {
+    #[default]
+    None,
+    /// The tone curve has changed: what was drawn is shown again.
+    Shown,
+    /// The view, the exposure, the ambient light, or which lobes are summed has changed: the scene is drawn again.
+    Drawn,
+    /// Materials or lights have changed, or whether lights are visible: they are sent to the device first.
+    Scene,
+}
+
+impl Change {
+    /// What it takes to show `after` where `before` is shown.
+    pub fn between(before: &Edits, after: &Edits) -> Self {
+        let things = |edits: &Edits| (edits.every_material, edits.settings().lights_visible);
+        let drawn = |edits: &Edits| Settings { tone: Default::default(), ..edits.settings() };
+        if things(before) != things(after) || before.materials != after.materials || before.lights != after.lights {
+            Self::Scene
+        } else if before.camera != after.camera || drawn(before) != drawn(after) {
+            Self::Drawn
+        } else if before.tone != after.tone {
+            Self::Shown
+        } else {
+            Self::None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::ToneCurve;
+    use crate::scene::{CameraEdit, LightEdits, Lobes, MaterialEdits};
+    use glam::Vec3;
+
+    #[test]
+    fn no_more_is_done_than_a_change_makes_necessary() {
+        let material = MaterialEdits { alpha: Some(0.5), ..MaterialEdits::default() };
+        let light = LightEdits { strength: Some(2.0), ..LightEdits::default() };
+        let edits = Edits::default;
+        for (change, after) in [
+            (Change::None, edits()),
+            (Change::Shown, Edits { tone: Some(ToneCurve::Agx), ..edits() }),
+            (Change::Drawn, Edits { camera: Some(CameraEdit::Loaded(1)), ..edits() }),
+            (Change::Drawn, Edits { exposure: Some(1.0), ..edits() }),
+            (Change::Drawn, Edits { ambient: Some(Vec3::ONE), ..edits() }),
+            (Change::Drawn, Edits { lobes: Some(Lobes::NONE), ..edits() }),
+            (Change::Scene, Edits { lights_visible: Some(false), ..edits() }),
+            (Change::Scene, Edits { every_material: material, ..edits() }),
+            (Change::Scene, Edits { materials: [(0, material)].into(), ..edits() }),
+            (Change::Scene, Edits { lights: [(0, light)].into(), ..edits() }),
+        ] {
+            assert_eq!(Change::between(&edits(), &after), change, "{after:?}");
+            assert_eq!(Change::between(&after, &edits()), change, "{after:?}");
+            assert_eq!(Change::between(&after, &after), Change::None);
+        }
+        // A hue that nobody sees changes nothing.
+        let dark = Edits { ambient_strength: Some(0.0), ..edits() };
+        let hue = Edits { ambient: Some(Vec3::X), ..dark.clone() };
+        assert_eq!(Change::between(&dark, &hue), Change::None);
+    }
+}

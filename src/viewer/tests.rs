@@ -1,0 +1,332 @@
+//! The user interface without a window: what presses, drags and keys make of the edits.
+
+use egui::accesskit::{Node, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
+use glam::{Mat4, Vec3};
+
+use super::change::Change;
+use super::layout::{self, Layout};
+use super::panel::Request;
+use super::state::State;
+use crate::scene::{
+    AlphaMode, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection, Scene,
+    Sheen, TextureSlot, TextureUse,
+};
+
+/// The user interface of a state, and what it was laid out as last.
+struct Window {
+    context: egui::Context,
+    state: State,
+    nodes: Vec<Node>,
+    layout: Layout,
+    /// After how many seconds egui wants the next pass.
+    delay: f64,
+}
+
+impl Window {
+    fn new(scene: Scene) -> Self {
+        let context = egui::Context::default();
+        context.enable_accesskit();
+        let state = State::new("test.glb", scene, Edits::default());
+        let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
+        window.pass(vec![]);
+        window
+    }
+
+    /// A pass after these events; what it changes.
+    fn pass(&mut self, events: Vec<Event>) -> Change {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 1400.0)));
+        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let mut shown = Layout::default();
+        let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
+        self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
+        if let Some(update) = output.platform_output.accesskit_update.take() {
+            self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
+        }
+        output.drop_without_applying_deltas();
+        self.layout = shown;
+        self.layout.change
+    }
+
+    /// The greatest change that a drag brings about.
+    fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) -> Change {
+        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+        let passes = [
+            vec![Event::PointerMoved(from)],
+            vec![press(from, true)],
+            vec![Event::PointerMoved(to)],
+            vec![press(to, false)],
+        ];
+        passes.into_iter().map(|events| self.pass(events)).max().unwrap()
+    }
+
+    fn click(&mut self, at: Pos2) -> Change {
+        self.drag(PointerButton::Primary, at, at)
+    }
+
+    /// Places of the widgets of a role, from the top, each row from the left.
+    fn places(&self, role: Role) -> Vec<Rect> {
+        let of_role = self.nodes.iter().filter(|node| node.role() == role);
+        let mut places: Vec<Rect> = of_role.filter_map(place).collect();
+        places.sort_by(|left, right| (left.min.y, left.min.x).partial_cmp(&(right.min.y, right.min.x)).unwrap());
+        places
+    }
+
+    /// Where a widget of this role and text is.
+    fn place(&self, role: Role, text: &str) -> Rect {
+        let says = |node: &&Node| node.label().or(node.value()) == Some(text);
+        let found = self.nodes.iter().filter(|node| node.role() == role).find(says);
+        found.and_then(place).unwrap_or_else(|| panic!("no {role:?} says {text}"))
+    }
+
+    /// Where widgets of a role are in the row of a label.
+    fn in_row(&self, label: &str, role: Role) -> Vec<Rect> {
+        let row = self.place(Role::Label, label).y_range();
+        let places = self.places(role).into_iter();
+        places.filter(|place| row.contains(place.center().y)).collect()
+    }
+
+    /// Clicks on a box and types into it, key by key, with a pass or two after each; leaves the box by Enter.
+    fn type_into(&mut self, place: Rect, text: &str) {
+        self.click(place.center());
+        for character in text.chars() {
+            self.pass(vec![Event::Text(character.to_string())]);
+            self.pass(vec![]);
+        }
+        let key = |pressed| Event::Key {
+            key: Key::Enter,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        self.pass(vec![key(true)]);
+        self.pass(vec![key(false)]);
+    }
+}
+
+fn place(node: &Node) -> Option<Rect> {
+    let bounds = node.bounds()?;
+    Some(Rect::from_min_max(pos2(bounds.x0 as f32, bounds.y0 as f32), pos2(bounds.x1 as f32, bounds.y1 as f32)))
+}
+
+/// A velvet triangle of this size in metres, under one light.
+fn scene(size: f32) -> Scene {
+    let corners = vec![Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
+    let instance = |name: &str| Instance { name: name.into(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+    let light = Light {
+        name: "key".into(),
+        radiance: Vec3::new(4.0, 2.0, 1.0),
+        texture_mean: Vec3::ONE,
+        two_sided: false,
+        polygons: vec![Polygon { contours: vec![corners.clone()], normal: Vec3::Z }],
+        instance: 1,
+    };
+    let camera = Camera {
+        name: "camera".into(),
+        world_from_camera: Mat4::from_translation(size * Vec3::Z),
+        projection: Projection::Perspective { yfov: 0.7, near: 0.1 * size, far: f32::INFINITY },
+    };
+    Scene {
+        meshes: vec![Mesh { positions: corners, ..Mesh::default() }],
+        instances: vec![instance("cloth"), instance("key")],
+        materials: vec![Material { sheen: Some(Sheen::new(Vec3::ONE, 0.3)), ..Material::matte("velvet", Vec3::ZERO) }],
+        lights: vec![light],
+        cameras: vec![camera],
+        ..Scene::default()
+    }
+}
+
+/// A window in which the panel shows everything it can show of materials; both materials have the same name.
+fn full() -> Window {
+    let mut scene = scene(1.0);
+    scene.materials.push(scene.materials[0].clone());
+    let mut window = Window::new(scene);
+    let manual = MaterialEdits { layering: Some(Layering::Manual(0.3)), ..MaterialEdits::default() };
+    window.state.edits.materials.insert(0, manual);
+    window.state.edits.ambient = Some(Vec3::new(0.1, 0.2, 0.3));
+    window.pass(vec![]);
+    window
+}
+
+#[test]
+fn rests_while_nothing_happens() {
+    for mut window in [Window::new(scene(1.0)), full()] {
+        let before = window.state.edits.clone();
+        for _ in 0..10 {
+            window.pass(vec![]);
+        }
+        assert_eq!(window.pass(vec![]), Change::None);
+        assert!(window.delay > 3600.0, "the next pass is wanted in {} s", window.delay);
+        assert_eq!(window.state.edits, before);
+    }
+}
+
+#[test]
+fn the_panel_leaves_the_picture_free() {
+    let picture = Window::new(scene(1.0)).layout.picture;
+    assert!(picture.min == Pos2::ZERO && picture.width() > 950.0 && picture.height() == 1400.0);
+}
+
+#[test]
+fn long_names_and_many_things_leave_the_panel_as_wide_as_it_is() {
+    let mut many = scene(1.0);
+    let name = "a very long name of a material ".repeat(20);
+    many.materials = vec![Material { name: name.clone(), ..many.materials[0].clone() }; 60];
+    many.lights = vec![Light { name: name.replace(' ', "_"), ..many.lights[0].clone() }; 40];
+    let mut window = Window::new(many);
+    assert_eq!(window.layout.picture, Window::new(scene(1.0)).layout.picture);
+    let list = window.places(Role::ComboBox)[0];
+    window.click(list.center());
+    for node in &window.nodes {
+        let place = place(node).unwrap_or(Rect::NOTHING);
+        assert!(place.max.x <= 1280.0, "{node:?}");
+    }
+}
+
+#[test]
+fn dragging_turns_or_pans_and_the_wheel_zooms() {
+    let mut window = Window::new(scene(1.0));
+    let (from, to) = (pos2(300.0, 300.0), pos2(400.0, 320.0));
+    let camera = |window: &Window| window.state.orbit().camera().world_from_camera;
+    let start = camera(&window);
+    assert_eq!(window.drag(PointerButton::Primary, from, to), Change::Drawn);
+    let turned = camera(&window);
+    assert!(!turned.z_axis.abs_diff_eq(start.z_axis, 0.1));
+    assert_eq!(window.drag(PointerButton::Secondary, from, to), Change::Drawn);
+    let panned = camera(&window);
+    assert!(panned.z_axis.abs_diff_eq(turned.z_axis, 1e-6) && !panned.w_axis.abs_diff_eq(turned.w_axis, 0.01));
+    let wheel = Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: vec2(0.0, 3.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    };
+    let changes = (0..20).map(|k| if k == 0 { vec![wheel.clone()] } else { vec![] });
+    assert_eq!(changes.map(|events| window.pass(events)).max(), Some(Change::Drawn));
+    assert!(!camera(&window).w_axis.abs_diff_eq(panned.w_axis, 0.01));
+}
+
+#[test]
+fn the_alpha_slider_is_alpha_itself_and_reset_takes_it_back() {
+    let mut scene = scene(1.0);
+    let texture = TextureUse { texture: 0, tex_coord: 0, uv_from_tex_coord: Default::default() };
+    scene.materials[0].textures[TextureSlot::SheenRoughness as usize] = Some(texture);
+    let mut window = Window::new(scene);
+    let slider = window.places(Role::Slider)[0];
+    let change = window.drag(PointerButton::Primary, slider.left_center(), slider.right_center() - vec2(20.0, 0.0));
+    assert_eq!(change, Change::Scene);
+    let alpha = window.state.edits.materials[&0].alpha.unwrap();
+    assert!(alpha > 0.6, "{alpha}");
+    // Whatever the texture: the same value as the flag's.
+    let drawn = window.state.drawn();
+    assert_eq!(drawn.materials[0].sheen.map(|sheen| sheen.alpha()), Some(alpha));
+    assert_eq!(drawn.materials[0].texture(TextureSlot::SheenRoughness), None);
+    // The scene stays as it was loaded.
+    assert_eq!(window.state.scene.materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.3)));
+    assert_eq!(window.state.scene.materials[0].texture(TextureSlot::SheenRoughness), Some(texture));
+    let reset = window.place(Role::Button, "Reset").center();
+    assert_eq!(window.click(reset), Change::Scene);
+    assert_eq!(window.state.edits, Edits::default());
+}
+
+#[test]
+fn what_is_set_for_a_material_is_for_it_alone() {
+    let mut window = full();
+    let before = window.state.edits.clone();
+    let share = window.in_row("base's share", Role::Slider)[0];
+    let change = window.drag(PointerButton::Primary, share.left_center(), share.center());
+    assert_eq!(change, Change::Scene);
+    assert!(matches!(window.state.edits.materials[&0].layering, Some(Layering::Manual(share)) if share != 0.3));
+    assert_eq!((window.state.edits.materials.len(), window.state.edits.every_material), (1, before.every_material));
+}
+
+#[test]
+fn a_sheen_is_added_where_there_is_none() {
+    let mut scene = scene(1.0);
+    scene.materials[0].sheen = None;
+    scene.materials[0].alpha_mode = AlphaMode::Opaque;
+    let mut window = Window::new(scene);
+    let button = window.place(Role::Button, "Add a sheen").center();
+    assert_eq!(window.click(button), Change::Scene);
+    assert_eq!(window.state.drawn().materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.5)));
+}
+
+#[test]
+fn lights_keep_their_hue_when_they_are_turned_down_and_up() {
+    let mut window = full();
+    for (row, loaded) in [("radiance", Vec3::new(4.0, 2.0, 1.0)), ("ambient", Vec3::new(0.1, 0.2, 0.3))] {
+        let radiance = |window: &Window| match row {
+            "ambient" => window.state.edits.settings().ambient,
+            _ => window.state.drawn().lights[0].radiance,
+        };
+        assert_eq!(radiance(&window), loaded);
+        for (text, strength) in [("0", 0.0), ("3.7", 3.7)] {
+            let number = window.in_row(row, Role::SpinButton)[0];
+            window.type_into(number, text);
+            let expected = loaded / loaded.max_element() * strength;
+            assert!(radiance(&window).abs_diff_eq(expected, 1e-6), "{row} {text}: {}", radiance(&window));
+        }
+    }
+}
+
+#[test]
+fn boxes_hold_what_is_typed_key_by_key() {
+    for size in [1e-3, 1.0, 1e3] {
+        let mut window = Window::new(scene(size));
+        // Longer and finer than what the boxes show.
+        for (text, expected) in [("2.3", 2.3), ("-0.0456", -0.0456), ("1234.567", 1234.567), ("0.12345", 0.12345)] {
+            for axis in 0..3 {
+                let place = window.in_row("position", Role::SpinButton)[axis];
+                window.type_into(place, text);
+                assert_eq!(window.state.edits.of_light(0).position.unwrap()[axis], expected, "{text} {size}");
+            }
+            let place = window.in_row("radiance", Role::SpinButton)[0];
+            window.type_into(place, text.trim_start_matches('-'));
+            assert_eq!(window.state.drawn().lights[0].radiance.x, expected.abs(), "{text} {size}");
+        }
+        let fractions = [("alpha", "0.12345"), ("metallic", "0.4567"), ("exposure", "1.2345")];
+        for (row, text) in fractions {
+            // The slider of alpha stands below its label.
+            let place = match row {
+                "alpha" => window.in_row("fuzz", Role::SpinButton)[0],
+                _ => window.in_row(row, Role::SpinButton)[0],
+            };
+            window.type_into(place, text);
+            let own = window.state.edits.of_material(0);
+            let found = [own.alpha, own.metallic, window.state.edits.exposure].into_iter().flatten().last();
+            assert_eq!(found, text.parse().ok(), "{row}");
+        }
+    }
+}
+
+#[test]
+fn a_drag_of_a_position_is_in_the_scenes_proportion() {
+    for size in [1e-3, 1.0, 1e3] {
+        let mut window = Window::new(scene(size));
+        let place = window.in_row("position", Role::SpinButton)[0].center();
+        window.drag(PointerButton::Primary, place, place + vec2(100.0, 0.0));
+        let moved = window.state.edits.of_light(0).position.unwrap().x - window.state.scene.lights[0].position().x;
+        assert!((0.02..2.0).contains(&(moved / size)), "{moved} m in a scene of {size} m");
+    }
+}
+
+#[test]
+fn requests_reach_the_window() {
+    let mut window = Window::new(scene(1.0));
+    for (button, request) in [("Save screenshot", Request::Screenshot), ("Save state", Request::SaveState)] {
+        let at = window.place(Role::Button, button).center();
+        let press = |pressed| Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        window.pass(vec![Event::PointerMoved(at)]);
+        window.pass(vec![press(true)]);
+        assert_eq!(window.layout.request, None);
+        window.pass(vec![press(false)]);
+        assert_eq!(window.layout.request, Some(request));
+    }
+}
