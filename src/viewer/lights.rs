@@ -4,10 +4,13 @@ use egui::Ui;
 use glam::Vec3;
 
 use super::state::State;
-use super::widgets::{Glow, color_button, short};
+use super::widgets::{Glow, color_button, number_box, short};
 
 /// Most lights whose sections are open from the start.
 const OPEN: usize = 4;
+
+/// How far from the origin lights may be put, metres: their outlines stay finite.
+const FARTHEST: f32 = 1e10;
 
 /// Most characters of a light's name.
 const NAME_SHOWN: usize = 28;
@@ -37,8 +40,7 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) {
     ui.horizontal(|ui| {
         ui.label("radiance");
         let speed = 0.02 * glow.strength.max(1e-3);
-        let value = egui::DragValue::new(&mut glow.strength).range(0.0..=f32::MAX).clamp_existing_to_range(false);
-        ui.add(value.speed(speed));
+        number_box(ui, &mut glow.strength, 0.0..=f32::MAX, speed);
         let mut color = glow.hue;
         color_button(ui, &mut color);
         if color != glow.hue {
@@ -60,10 +62,10 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) {
 
 /// Three boxes, in metres; a drag of a point moves by `step`.
 fn position_boxes(ui: &mut Ui, mut position: Vec3, step: f32) -> Vec3 {
-    ui.horizontal(|ui| {
-        ui.label("position");
+    ui.label("position");
+    ui.horizontal_wrapped(|ui| {
         for coordinate in [&mut position.x, &mut position.y, &mut position.z] {
-            ui.add(egui::DragValue::new(coordinate).range(-1e10..=1e10).clamp_existing_to_range(false).speed(step));
+            number_box(ui, coordinate, -FARTHEST..=FARTHEST, step);
         }
     });
     position

@@ -26,6 +26,8 @@ pub enum Request {
 /// Lays the panel out and applies what is changed in it to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     let mut request = None;
+    // However narrow its content is, it leaves the picture where it was.
+    ui.set_min_width(ui.available_width());
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
@@ -63,7 +65,7 @@ fn picture(ui: &mut Ui, edits: &mut Edits) {
     let mut settings = before;
     ui.horizontal(|ui| {
         ui.label("exposure");
-        slider(ui, egui::Slider::new(&mut settings.exposure, -8.0..=8.0).suffix(" EV").min_decimals(1));
+        slider(ui, &mut settings.exposure, -8.0..=8.0, |slider| slider.suffix(" EV"));
     });
     ui.horizontal(|ui| {
         ui.label("tone curve");
@@ -103,8 +105,7 @@ fn ambient(ui: &mut Ui, edits: &mut Edits) {
         ui.label("ambient");
         // Room for its box and the colour.
         ui.spacing_mut().slider_width = 80.0;
-        let value = egui::Slider::new(&mut glow.strength, 0.0..=AMBIENT_MAX).logarithmic(true).smallest_positive(1e-3);
-        slider(ui, value);
+        slider(ui, &mut glow.strength, 0.0..=AMBIENT_MAX, |slider| slider.logarithmic(true).smallest_positive(1e-3));
         let mut color = glow.hue;
         color_button(ui, &mut color);
         if color != glow.hue {

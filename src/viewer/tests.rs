@@ -86,6 +86,13 @@ impl Window {
         places.filter(|place| row.contains(place.center().y)).collect()
     }
 
+    /// Where the widgets of a role are in the row below that of a label.
+    fn below(&self, label: &str, role: Role) -> Vec<Rect> {
+        let bottom = self.place(Role::Label, label).max.y;
+        let places = self.places(role).into_iter();
+        places.filter(|place| (bottom..bottom + place.height() + 8.0).contains(&place.center().y)).collect()
+    }
+
     /// Clicks on a box and types into it, key by key, with a pass or two after each; leaves the box by Enter.
     fn type_into(&mut self, place: Rect, text: &str) {
         self.click(place.center());
@@ -278,7 +285,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
         // Longer and finer than what the boxes show.
         for (text, expected) in [("2.3", 2.3), ("-0.0456", -0.0456), ("1234.567", 1234.567), ("0.12345", 0.12345)] {
             for axis in 0..3 {
-                let place = window.in_row("position", Role::SpinButton)[axis];
+                let place = window.below("position", Role::SpinButton)[axis];
                 window.type_into(place, text);
                 assert_eq!(window.state.edits.of_light(0).position.unwrap()[axis], expected, "{text} {size}");
             }
@@ -305,7 +312,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
 fn a_drag_of_a_position_is_in_the_scenes_proportion() {
     for size in [1e-3, 1.0, 1e3] {
         let mut window = Window::new(scene(size));
-        let place = window.in_row("position", Role::SpinButton)[0].center();
+        let place = window.below("position", Role::SpinButton)[0].center();
         window.drag(PointerButton::Primary, place, place + vec2(100.0, 0.0));
         let moved = window.state.edits.of_light(0).position.unwrap().x - window.state.scene.lights[0].position().x;
         assert!((0.02..2.0).contains(&(moved / size)), "{moved} m in a scene of {size} m");

@@ -1,17 +1,65 @@
 //! Widgets that several parts of the panel have.
 
+use std::ops::RangeInclusive;
+
 use egui::Ui;
 use glam::Vec3;
 
+/// Digits of a number that its box shows.
+const DIGITS: i32 = 4;
+
+/// Numbers of magnitudes outside of this range are shown with an exponent, so that boxes stay narrow.
+const PLAIN: std::ops::Range<i32> = -3..6;
+
 /// A slider that changes nothing until it is touched: values from a file are not rounded, and what is typed into its
 /// box stands as it was typed.
-pub fn slider(ui: &mut Ui, slider: egui::Slider) {
-    ui.add(slider.clamping(egui::SliderClamping::Edits));
+pub fn slider(
+    ui: &mut Ui,
+    value: &mut f32,
+    range: RangeInclusive<f32>,
+    change: impl FnOnce(egui::Slider) -> egui::Slider,
+) {
+    let before = f64::from(*value);
+    let slider = change(egui::Slider::new(value, range)).clamping(egui::SliderClamping::Edits);
+    ui.add(slider.custom_formatter(|value, _| written(value)).custom_parser(move |text| typed(text, before)));
 }
 
 /// A slider for a number in [0, 1].
 pub fn share_slider(ui: &mut Ui, share: &mut f32) {
-    slider(ui, egui::Slider::new(share, 0.0..=1.0).min_decimals(2));
+    slider(ui, share, 0.0..=1.0, |slider| slider);
+}
+
+/// A box with a number; a drag over a point of the screen changes it by `speed`. It changes nothing until it is
+/// touched, as a slider does.
+pub fn number_box(ui: &mut Ui, value: &mut f32, range: RangeInclusive<f32>, speed: f32) {
+    let before = *value;
+    let number = egui::DragValue::new(value).range(range).clamp_existing_to_range(false).speed(speed);
+    let number = number.custom_formatter(|value, _| written(value));
+    ui.add(number.custom_parser(move |text| typed(text, before.into()))).on_hover_text(before.to_string());
+}
+
+/// A number as its box shows it.
+fn written(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if !PLAIN.contains(&magnitude) {
+        return format!("{:.*e}", 2, value);
+    }
+    let decimals = (DIGITS - 1 - magnitude).max(0) as usize;
+    let digits = format!("{value:.decimals$}");
+    match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => digits,
+    }
+}
+
+/// The number that a box's text stands for. `None` where it is still what the box showed for `before`, which may be
+/// more precise.
+fn typed(text: &str, before: f64) -> Option<f64> {
+    let text = text.trim().replace('\u{2212}', "-");
+    if text == written(before) { None } else { text.parse().ok().filter(|number: &f64| number.is_finite()) }
 }
 
 /// A button that opens a colour picker on a linear Rec. 709 colour in [0, 1].
@@ -68,6 +116,26 @@ mod tests {
         assert_eq!((dark.strength, dark.hue), (0.0, glow.hue));
         assert_eq!(Glow::new(dark.hue, Some(3.3)), Glow { strength: 3.3, hue: glow.hue });
         assert_eq!(Glow::new(Vec3::ZERO, None), Glow { strength: 0.0, hue: Vec3::ONE });
+    }
+
+    #[test]
+    fn boxes_are_narrow_and_what_they_show_changes_nothing() {
+        for (value, shown) in [
+            (0.0, "0"),
+            (0.3f32, "0.3"),
+            (-0.001_234_56, "-0.001235"),
+            (1234.567, "1235"),
+            (-999_999.0, "-999999"),
+            (1e6, "1.00e6"),
+            (-3.333e-4, "-3.33e-4"),
+            (9.9999, "10"),
+        ] {
+            let value = f64::from(value);
+            assert_eq!(written(value), shown);
+            assert_eq!(typed(shown, value), None);
+            assert_eq!(typed(shown, 7.0), shown.parse().ok());
+        }
+        assert_eq!((typed(" \u{2212}2.5 ", 1.0), typed("2..", 1.0), typed("nan", 1.0)), (Some(-2.5), None, None));
     }
 
     #[test]

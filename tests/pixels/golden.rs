@@ -20,7 +20,7 @@ const SIZE: [u32; 2] = [192, 108];
 /// at most.
 const MOST: [(u8, usize); 3] = [(2, 1200), (16, 300), (128, 0)];
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 

@@ -19,6 +19,7 @@ mod screenshot;
 mod sheen_models;
 mod shown;
 mod stage;
+mod state;
 mod tables;
 mod textures;
 mod truth;

@@ -107,8 +107,8 @@ fn worth(color: DVec3, radiance: DVec3) -> f64 {
 mod tests {
     use super::super::lights::Lights;
     use super::*;
-    use crate::scene::{Drawn, Edits, Light, Polygon, Scene};
-    use glam::{DMat3, Vec3};
+    use crate::scene::{Drawn, Edits, Instance, Light, Polygon, Scene};
+    use glam::{DMat3, Mat4, Vec3};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64;
 
@@ -132,7 +132,8 @@ mod tests {
             light(vec![plane(&letter, 0.7)], Vec3::NEG_Z, Vec3::new(0.5, 2.0, 1.0)),
             light(vec![upright.to_vec()], Vec3::NEG_Y, Vec3::new(1.0, 1.0, 4.0)),
         ];
-        Scene { lights, ..Scene::default() }
+        let lamp = Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+        Scene { lights, instances: vec![lamp], ..Scene::default() }
     }
 
     /// What the lights send into lobes, by samples on the lights and by samples of the lobes: two ways to one number.
