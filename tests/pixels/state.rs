@@ -27,7 +27,8 @@ fn a_state_is_the_flags_that_say_the_same() {
         assert_ne!(stated, plain);
         // Flags win, those for all materials too.
         let changed = "--sheen-color 1,1,1 --ambient 0,0,0 --lights-visible on";
-        let expected = picture(&bench, command, &format!("{flags} --set 0.sheen-color=1,1,1 {changed}"));
+        let rest = "--exposure 1 --lobes sheen,diffuse --alpha 0.7 --layering manual=0.5 --set 0.roughness=0.3";
+        let expected = picture(&bench, command, &format!("{rest} {changed}"));
         assert_eq!(picture(&bench, command, &format!("--state state.toml {changed}")), expected, "{command}");
     }
 }
