@@ -3,6 +3,8 @@
 use std::sync::{Arc, Mutex};
 use std::task::{Poll, Waker};
 
+use half::f16;
+
 use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
 use crate::picture::{DisplayImage, LinearImage, ToneCurve};
 use crate::scene::{Camera, Scene, Settings};
@@ -27,13 +29,11 @@ impl Offscreen {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let cannot = || cannot_draw("floats", samples);
-        let radiance = RadianceFormat::display(&gpu.adapter, samples).ok_or_else(cannot)?;
-        let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+        let radiance = RadianceFormat::display(&gpu.adapter, samples);
+        Self::for_display_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", samples))?, table, scene, settings)
     }
 
-    /// For linear pictures (`linear`), with 1 or 4 samples per pixel. Fails as `for_display` does.
+    /// For linear pictures (`linear`) in 32-bit floats, with 1 or 4 samples per pixel. Fails as `for_display` does.
     pub fn for_linear(
         gpu: &Gpu,
         samples: u32,
@@ -41,23 +41,74 @@ impl Offscreen {
         scene: &Scene,
         settings: &Settings,
     ) -> Result<Self, RenderError> {
-        let cannot = || cannot_draw("32-bit floats", samples);
-        let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or_else(cannot)?;
-        let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
+        let radiance = RadianceFormat::linear(&gpu.adapter, samples);
+        Self::for_linear_in(gpu, radiance.ok_or_else(|| cannot_draw("32-bit floats", samples))?, table, scene, settings)
+    }
+
+    /// As `for_display`; where the adapter cannot draw so many samples, with one (see `radiance`).
+    pub fn nearest_for_display(
+        gpu: &Gpu,
+        samples: u32,
+        table: &SheenTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::nearest_display(&gpu.adapter, samples);
+        Self::for_display_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", 1))?, table, scene, settings)
+    }
+
+    /// As `for_linear`; where the adapter cannot draw so many samples, with one, and where it draws no 32-bit floats, in 16-bit ones
+    /// (see `radiance`).
+    pub fn nearest_for_linear(
+        gpu: &Gpu,
+        samples: u32,
+        table: &SheenTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::nearest_linear(&gpu.adapter, samples);
+        Self::for_linear_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", 1))?, table, scene, settings)
+    }
+
+    fn for_display_in(
+        gpu: &Gpu,
+        radiance: RadianceFormat,
+        table: &SheenTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
         Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
     }
 
-    /// The picture that `velour render` makes of a scene without any flag but `--size`: through its first camera, with 4 samples a pixel,
-    /// the shipped table and the default tone curve. In one call, for tests that compare it with a picture that is kept; whoever
-    /// draws a scene more than once keeps an `Offscreen`. Panics where the scene has no camera; a scene that was loaded has one.
+    fn for_linear_in(
+        gpu: &Gpu,
+        radiance: RadianceFormat,
+        table: &SheenTable,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Self, RenderError> {
+        let format = Format { radiance, output: radiance.texture, measured: true };
+        Ok(Self { renderer: Renderer::new(gpu, format, table, scene, settings)?, format })
+    }
+
+    /// The picture that `velour render` makes of a scene without any flag but `--size`: through its first camera, with 4 samples a pixel
+    /// (1 where the adapter has no 4), the shipped table and the default tone curve. In one call, for tests that compare it with a picture
+    /// that is kept; whoever draws a scene more than once keeps an `Offscreen`. Panics where the scene has no camera; a scene that was
+    /// loaded has one.
     pub async fn screenshot(
         gpu: &Gpu,
         scene: &Scene,
         settings: &Settings,
         size: [u32; 2],
     ) -> Result<DisplayImage, RenderError> {
-        let mut renderer = Self::for_display(gpu, 4, &SheenTable::embedded(), scene, settings)?;
+        let mut renderer = Self::nearest_for_display(gpu, 4, &SheenTable::embedded(), scene, settings)?;
         renderer.display(gpu, &scene.cameras[0], size, settings, ToneCurve::default()).await
+    }
+
+    /// How radiance is kept on the way: samples a pixel, and bits of each number.
+    pub fn radiance(&self) -> RadianceFormat {
+        self.format.radiance
     }
 
     /// Sends changed materials, lights, places and settings of the same scene to the device; its meshes and textures
@@ -92,8 +143,17 @@ impl Offscreen {
         settings: &Settings,
     ) -> Result<LinearImage, RenderError> {
         assert!(self.format.measured, "a renderer for shown pictures was asked for a linear one");
-        let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
-        let pixels = self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?;
+        let pixels = match self.format.radiance.bits() {
+            16 => {
+                let convert =
+                    |texel: [u16; 4]| [texel[0], texel[1], texel[2]].map(|bits| f16::from_bits(bits).to_f32());
+                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+            }
+            _ => {
+                let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
+                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+            }
+        };
         Ok(LinearImage { width: size[0], height: size[1], pixels })
     }
 

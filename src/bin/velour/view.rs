@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use velour::file::{check_writable, write_atomically};
-use velour::renderer::Offscreen;
-use velour::renderer::device::{self, DeviceError};
+use velour::picture::Format;
+use velour::renderer::{Offscreen, RadianceFormat, device};
 use velour::scene::assets::DRAPE;
 use velour::scene::{Scene, Settings, gltf};
 use velour::table::SheenTable;
@@ -55,12 +55,12 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     check_writable(output).map_err(Failure::input)?;
     let settings = Settings::default();
     let picture = match pollster::block_on(device::open_offscreen(None)) {
-        Err(DeviceError::NoAdapter) => {
-            without_device::plain(scene, &settings, SIZE)?.display(settings.exposure, Default::default())
-        }
-        gpu => {
-            let gpu = gpu.map_err(Failure::device)?;
-            gpu.block_on(Offscreen::screenshot(&gpu, scene, &settings, SIZE)).map_err(render::failure)?
+        Err(why) => without_device::plain(&why, scene, &settings, SIZE)?.display(settings.exposure, Default::default()),
+        Ok(gpu) => {
+            let picture = gpu.block_on(Offscreen::screenshot(&gpu, scene, &settings, SIZE)).map_err(render::failure)?;
+            let radiance = RadianceFormat::nearest_display(&gpu.adapter, 4);
+            radiance.and_then(|radiance| render::shortfall(radiance, 4, Format::Png)).into_iter().for_each(complain);
+            picture
         }
     };
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
