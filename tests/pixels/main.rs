@@ -11,6 +11,7 @@ mod embedded;
 mod golden;
 mod lights;
 mod modelling;
+mod overwriting;
 mod radiance;
 mod reference;
 mod reference_command;
