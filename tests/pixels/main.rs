@@ -11,6 +11,7 @@ mod embedded;
 mod golden;
 mod lights;
 mod modelling;
+mod opengl;
 mod overwriting;
 mod radiance;
 mod reference;

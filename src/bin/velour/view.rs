@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use velour::file::{check_writable, write_atomically};
-use velour::picture::Format;
-use velour::renderer::{Offscreen, RadianceFormat, device};
+use velour::picture::{Format, ToneCurve};
+use velour::renderer::{Offscreen, device};
 use velour::scene::assets::DRAPE;
 use velour::scene::{Scene, Settings, gltf};
 use velour::table::SheenTable;
+use velour::viewer::ViewerError;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
@@ -33,33 +34,37 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
     velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
 }
 
-/// The viewer on the default scene; without a display, the picture that it would show.
+/// The viewer on the default scene; without a display, or a device that draws on it, the picture that it would show.
 pub fn run_or_render_default() -> Result<(), Failure> {
     let scene = DRAPE.load().map_err(Failure::input)?;
-    match velour::viewer::event_loop() {
-        Ok(event_loop) => {
-            velour::viewer::run(event_loop, DRAPE.name, scene, SheenTable::embedded()).map_err(Failure::device)
-        }
-        Err(no_display) => {
+    let shown = velour::viewer::event_loop()
+        .and_then(|event_loop| velour::viewer::run(event_loop, DRAPE.name, scene, SheenTable::embedded()));
+    match shown {
+        Err(why @ (ViewerError::NoDisplay(_) | ViewerError::Device(_))) => {
             let output = Path::new("velour.png");
-            render_default(&scene, output)?;
-            say(format!("{no_display}: the default scene is rendered to {}", output.display()));
+            render_default(&DRAPE.load().map_err(Failure::input)?, output)?;
+            say(format!("{why}: the default scene is rendered to {}", output.display()));
             Ok(())
         }
+        shown => shown.map_err(Failure::device),
     }
 }
 
 /// What `velour render` makes of the scene when no flag is given.
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SIZE: [u32; 2] = [1280, 720];
+    const SAMPLES: u32 = 4;
     check_writable(output).map_err(Failure::input)?;
     let settings = Settings::default();
     let picture = match pollster::block_on(device::open_offscreen(None)) {
         Err(why) => without_device::plain(&why, scene, &settings, SIZE)?.display(settings.exposure, Default::default()),
         Ok(gpu) => {
-            let picture = gpu.block_on(Offscreen::screenshot(&gpu, scene, &settings, SIZE)).map_err(render::failure)?;
-            let radiance = RadianceFormat::nearest_display(&gpu.adapter, 4);
-            radiance.and_then(|radiance| render::shortfall(radiance, 4, Format::Png)).into_iter().for_each(complain);
+            let table = SheenTable::embedded();
+            let mut renderer =
+                Offscreen::nearest_for_display(&gpu, SAMPLES, &table, scene, &settings).map_err(render::failure)?;
+            let picture = renderer.display(&gpu, &scene.cameras[0], SIZE, &settings, ToneCurve::default());
+            let picture = gpu.block_on(picture).map_err(render::failure)?;
+            render::shortfall(renderer.radiance(), SAMPLES, Format::Png).into_iter().for_each(complain);
             picture
         }
     };
