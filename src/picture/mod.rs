@@ -2,6 +2,7 @@
 //! how two pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
 
 #[cfg(test)]
+#[path = "tests/claims.rs"]
 mod claims_tests;
 mod difference;
 mod extent;
