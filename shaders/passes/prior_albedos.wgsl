@@ -10,7 +10,7 @@ fn prior_albedos_vertex(@builtin(vertex_index) index: u32) -> @builtin(position)
 }
 
 @fragment
-fn prior_albedos_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn prior_albedos_fragment(@builtin(position) position: vec4f) -> @location(0) u32 {
     let view = prior_sheens_view_of_node(vec2<u32>(position.xy));
     // Drivers' sines may err by 5e-4, which narrow lobes would show: so directions are normalised.
     var sum = 0.0;
@@ -23,5 +23,5 @@ fn prior_albedos_fragment(@builtin(position) position: vec4f) -> @location(0) ve
         sum += 3.0 * rise * rise * prior_sheens_value(view, wo);
     }
     let albedo = sum * 2.0 * LTC_PI / f32(PRIOR_ALBEDOS_ELEVATIONS * PRIOR_ALBEDOS_AZIMUTHS);
-    return vec4f(log(max(albedo, 1e-20)), 0.0, 0.0, 1.0);
+    return bitcast<u32>(log(max(albedo, 1e-20)));
 }

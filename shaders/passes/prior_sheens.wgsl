@@ -8,9 +8,10 @@ const PRIOR_SHEENS_NEUBELT_PETTINEO = 3u;
 const PRIOR_SHEENS_PATRY = 4u;
 // Smaller alphas are replaced by this one.
 const PRIOR_SHEENS_LEAST_ALPHA = 0.03;
-// Logarithms of albedos. Node k of n sits at k/(n-1): alpha = least + (1 - least) x^2 along x; along y mu = (p (2 - p))^4 for each model in turn.
+// Logarithms of albedos, as their bits: every adapter draws integers of 32 bits, but some draw no such floats.
+// Node k of n sits at k/(n-1): alpha = least + (1 - least) x^2 along x; along y mu = (p (2 - p))^4 for each model in turn.
 override PRIOR_SHEENS_NODES: u32 = 2;
-@group(0) @binding(10) var prior_sheens_log_albedos: texture_2d<f32>;
+@group(0) @binding(10) var prior_sheens_log_albedos: texture_2d<u32>;
 
 // A model as it is seen from one direction.
 struct PriorSheensView {
@@ -49,7 +50,7 @@ fn prior_sheens_albedo(alpha: f32, mu: f32) -> f32 {
 }
 
 fn prior_sheens_node(at: vec2<u32>) -> f32 {
-    return textureLoad(prior_sheens_log_albedos, at, 0).x;
+    return bitcast<f32>(textureLoad(prior_sheens_log_albedos, at, 0).x);
 }
 
 // The variant's model. `local` points to the view in the shading frame; mu replaces its cosine.

@@ -1,7 +1,11 @@
 //! A linear picture, and what becomes of it in a file: .exr as it is, .png through exposure, tone curve and sRGB. And
 //! how two pictures differ: in their numbers, and to the eye (FLIP, with feature `cli`).
 
+#[cfg(test)]
+#[path = "tests/claims.rs"]
+mod claims_tests;
 mod difference;
+mod extent;
 #[cfg(feature = "cli")]
 mod flip;
 mod format;

@@ -1,16 +1,21 @@
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Seek};
 use std::path::{Path, PathBuf};
 
 use image::codecs::{openexr::OpenExrDecoder, png::PngDecoder};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageResult, Limits};
 
+use super::extent::Extent;
 use super::{DisplayImage, Format, LinearImage};
 
 /// The most pixels along a side of a picture that is read.
 pub const MAX_SIDE: u32 = 16384;
 /// The most pixels of a picture that is read: 7680 x 4320 is within it, and takes 400 MB.
 pub const MAX_PIXELS: u64 = 1 << 25;
+
+/// The most bytes of a piece of a .exr (some lines, or a tile) that is decoded at once: those of the largest picture with red, green,
+/// blue and alpha in one tile.
+const PIECE_BYTES_MAX: u64 = 16 * MAX_PIXELS;
 
 /// A picture whose numbers mean what its kind of file says: linear radiance of a .exr, shown values in [0, 1] (sRGB) of
 /// a .png. Rows from the top, pixels from the left.
@@ -67,10 +72,21 @@ pub enum ReadError {
     TooLarge {
         /// The file.
         path: PathBuf,
+        /// In pixels; of a .exr perhaps of its data, which may reach beyond what it shows.
+        width: u64,
         /// In pixels.
-        width: u32,
-        /// In pixels.
-        height: u32,
+        height: u64,
+    },
+    /// A .exr is cut into pieces that each hold more than can be decoded at once.
+    #[error(
+        "{}: a tile or block of lines takes {bytes} bytes, of {PIECE_BYTES_MAX} that are read: save it in lines, with fewer channels",
+        path.display()
+    )]
+    Pieces {
+        /// The file.
+        path: PathBuf,
+        /// Bytes of the largest piece.
+        bytes: u64,
     },
     /// Some of the picture's numbers are infinite or not a number.
     #[error(
@@ -133,6 +149,9 @@ impl Picture {
                 Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0.map(shown)).collect() }
             }
             Format::Exr => {
+                let mut file = file;
+                check_extent(path, Extent::read(&mut file))?;
+                file.rewind().map_err(open_error)?;
                 let decoder = OpenExrDecoder::with_alpha_preference(file, Some(false));
                 let image = decode(path, format, decoder)?.into_rgb32f();
                 let (width, height) = image.dimensions();
@@ -212,10 +231,26 @@ fn decode(path: &Path, format: Format, decoder: ImageResult<impl ImageDecoder>) 
     let error = |source| ReadError::Decode { path: path.to_owned(), format, source };
     let decoder = decoder.map_err(error)?;
     let (width, height) = decoder.dimensions();
-    if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_PIXELS {
+    check_size(path, [width, height].map(u64::from))?;
+    DynamicImage::from_decoder(decoder).map_err(error)
+}
+
+/// A .exr may have data for more than it shows, and the decoder takes memory for both.
+fn check_extent(path: &Path, extent: ImageResult<Extent>) -> Result<(), ReadError> {
+    let error = |source| ReadError::Decode { path: path.to_owned(), format: Format::Exr, source };
+    let Extent { windows, piece_bytes } = extent.map_err(error)?;
+    windows.into_iter().try_for_each(|size| check_size(path, size))?;
+    match piece_bytes {
+        bytes if bytes > PIECE_BYTES_MAX => Err(ReadError::Pieces { path: path.to_owned(), bytes }),
+        _ => Ok(()),
+    }
+}
+
+fn check_size(path: &Path, [width, height]: [u64; 2]) -> Result<(), ReadError> {
+    if width.max(height) > MAX_SIDE.into() || width * height > MAX_PIXELS {
         return Err(ReadError::TooLarge { path: path.to_owned(), width, height });
     }
-    DynamicImage::from_decoder(decoder).map_err(error)
+    Ok(())
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 use std::sync::{Arc, Mutex};
 use std::task::{Poll, Waker};
 
+use half::f16;
+
 use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
 use crate::picture::{DisplayImage, LinearImage};
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
@@ -21,23 +23,58 @@ impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
     /// or where the scene does not fit on the device.
     pub fn for_display(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
-        let cannot = || cannot_draw("floats", samples);
-        let radiance = RadianceFormat::display(&gpu.adapter, samples).ok_or_else(cannot)?;
+        let radiance = RadianceFormat::display(&gpu.adapter, samples);
+        Self::for_display_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", samples))?, table, drawn)
+    }
+
+    /// For linear pictures (`linear`) in 32-bit floats, with 1 or 4 samples per pixel. Fails as `for_display` does.
+    pub fn for_linear(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::linear(&gpu.adapter, samples);
+        Self::for_linear_in(gpu, radiance.ok_or_else(|| cannot_draw("32-bit floats", samples))?, table, drawn)
+    }
+
+    /// As `for_display`; where the adapter cannot draw so many samples, with one (see `radiance`).
+    pub fn nearest_for_display(
+        gpu: &Gpu,
+        samples: u32,
+        table: &SheenTable,
+        drawn: &Drawn,
+    ) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::nearest_display(&gpu.adapter, samples);
+        Self::for_display_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", 1))?, table, drawn)
+    }
+
+    /// As `for_linear`; where the adapter cannot draw so many samples, with one, and where it draws no 32-bit floats, in 16-bit ones
+    /// (see `radiance`).
+    pub fn nearest_for_linear(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
+        let radiance = RadianceFormat::nearest_linear(&gpu.adapter, samples);
+        Self::for_linear_in(gpu, radiance.ok_or_else(|| cannot_draw("floats", 1))?, table, drawn)
+    }
+
+    fn for_display_in(
+        gpu: &Gpu,
+        radiance: RadianceFormat,
+        table: &SheenTable,
+        drawn: &Drawn,
+    ) -> Result<Self, RenderError> {
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
         Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
     }
 
-    /// For linear pictures (`linear`), with 1 or 4 samples per pixel. Fails as `for_display` does.
-    pub fn for_linear(gpu: &Gpu, samples: u32, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
-        let cannot = || cannot_draw("32-bit floats", samples);
-        let radiance = RadianceFormat::linear(&gpu.adapter, samples).ok_or_else(cannot)?;
-        let format = Format { radiance, output: wgpu::TextureFormat::Rgba32Float, measured: true };
+    fn for_linear_in(
+        gpu: &Gpu,
+        radiance: RadianceFormat,
+        table: &SheenTable,
+        drawn: &Drawn,
+    ) -> Result<Self, RenderError> {
+        let format = Format { radiance, output: radiance.texture, measured: true };
         Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
     }
 
-    /// The picture that `velour render` makes of a scene with the flags that make these edits: through their camera, else the scene's
-    /// first, with 4 samples a pixel and the shipped table. In one call, for tests that compare it with a picture that is kept; whoever
-    /// draws a scene more than once keeps an `Offscreen`. Panics where the scene has no camera; a scene that was loaded has one.
+    /// The picture that `velour render` makes of a scene with the flags that make these edits: through their camera, else
+    /// the scene's first, with 4 samples a pixel (1 where the adapter has no 4) and the shipped table. In one call, for
+    /// tests that compare it with a picture that is kept; whoever draws a scene more than once keeps an `Offscreen`.
+    /// Panics where the scene has no camera; a scene that was loaded has one.
     pub async fn screenshot(
         gpu: &Gpu,
         scene: &Scene,
@@ -45,8 +82,13 @@ impl Offscreen {
         size: [u32; 2],
     ) -> Result<DisplayImage, RenderError> {
         let drawn = Drawn::new(scene, edits);
-        let mut renderer = Self::for_display(gpu, 4, &SheenTable::embedded(), &drawn)?;
+        let mut renderer = Self::nearest_for_display(gpu, 4, &SheenTable::embedded(), &drawn)?;
         renderer.display(gpu, &edits.camera(scene), size, &drawn.settings).await
+    }
+
+    /// How radiance is kept on the way: samples a pixel, and bits of each number.
+    pub fn radiance(&self) -> RadianceFormat {
+        self.format.radiance
     }
 
     /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
@@ -79,8 +121,17 @@ impl Offscreen {
         settings: &Settings,
     ) -> Result<LinearImage, RenderError> {
         assert!(self.format.measured, "a renderer for shown pictures was asked for a linear one");
-        let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
-        let pixels = self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?;
+        let pixels = match self.format.radiance.bits() {
+            16 => {
+                let convert =
+                    |texel: [u16; 4]| [texel[0], texel[1], texel[2]].map(|bits| f16::from_bits(bits).to_f32());
+                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+            }
+            _ => {
+                let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
+                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+            }
+        };
         Ok(LinearImage { width: size[0], height: size[1], pixels })
     }
 

@@ -8,6 +8,8 @@ use super::Gpu;
 pub(super) const NODES: u32 = 64;
 /// Number of models in the table.
 const MODELS: u32 = 4;
+/// The bits of floats: OpenGL adapters are there that draw no 32-bit floats.
+const FORMAT: TextureFormat = TextureFormat::R32Uint;
 
 /// The table that `prior_sheens.wgsl` looks up: logarithms of albedos.
 pub(super) struct PriorAlbedos {
@@ -24,7 +26,7 @@ impl PriorAlbedos {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: TextureFormat::R32Float,
+            format: FORMAT,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });
@@ -84,7 +86,7 @@ fn pipeline(device: &Device, shader: &ShaderModule) -> RenderPipeline {
             module: shader,
             entry_point: Some("prior_albedos_fragment"),
             compilation_options,
-            targets: &[Some(TextureFormat::R32Float.into())],
+            targets: &[Some(FORMAT.into())],
         }),
         multiview_mask: None,
         cache: None,

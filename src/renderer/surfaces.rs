@@ -236,11 +236,12 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
     let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let storage = buffer(BufferBindingType::Storage { read_only: true });
     let uniform = buffer(BufferBindingType::Uniform);
-    let table = BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    let texture = |sample_type| BindingType::Texture {
+        sample_type,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };
+    let table = texture(wgpu::TextureSampleType::Float { filterable: false });
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("surfaces"),
@@ -255,7 +256,7 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
             entry(7, ShaderStages::FRAGMENT, storage),
             entry(8, ShaderStages::FRAGMENT, storage),
             entry(9, ShaderStages::FRAGMENT, storage),
-            entry(10, ShaderStages::FRAGMENT, table),
+            entry(10, ShaderStages::FRAGMENT, texture(wgpu::TextureSampleType::Uint)),
         ],
     })
 }

@@ -28,6 +28,23 @@ impl RadianceFormat {
         format.is_drawn_by(adapter).then_some(format)
     }
 
+    /// `display`, with one sample where the adapter has no more; `None` where it draws no floats at all.
+    pub fn nearest_display(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
+        Self::display(adapter, samples).or_else(|| Self::display(adapter, 1))
+    }
+
+    /// `linear`, with one sample where the adapter has no more, and in 16-bit floats where it draws no others; `None` where it
+    /// draws none at all.
+    pub fn nearest_linear(adapter: &wgpu::Adapter, samples: u32) -> Option<Self> {
+        let linear = Self::linear(adapter, samples).or_else(|| Self::linear(adapter, 1));
+        linear.or_else(|| Self::nearest_display(adapter, samples))
+    }
+
+    /// Bits of each number: 32, or 16, which keep 11 binary digits of numbers up to 65504.
+    pub fn bits(self) -> u32 {
+        if self.texture == TextureFormat::Rgba16Float { 16 } else { 32 }
+    }
+
     /// The greatest number that a texel holds.
     pub(super) fn greatest(self) -> f64 {
         match self.texture {

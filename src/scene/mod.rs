@@ -32,6 +32,8 @@ mod tangents;
 mod tests;
 mod texture;
 
+use std::path::PathBuf;
+
 use glam::Vec3;
 
 pub use bounds::Bounds;
@@ -69,6 +71,9 @@ pub struct Scene {
     pub punctual_lights: Vec<PunctualLight>,
     /// The views. After loading there is at least one; the first is the default.
     pub cameras: Vec<Camera>,
+    /// The file that it was read from, then all files that this one names as buffers and images, read or not. Empty where it was read from
+    /// bytes or made otherwise.
+    pub files: Vec<PathBuf>,
     /// What the file holds that Velour does not draw, and what was added to it (a framing camera, a default rig): one
     /// line per kind, for the caller to print.
     pub notices: Vec<String>,

@@ -11,6 +11,8 @@ mod embedded;
 mod golden;
 mod lights;
 mod modelling;
+mod opengl;
+mod overwriting;
 mod radiance;
 mod reference;
 mod reference_command;

@@ -17,7 +17,7 @@ const ORIGIN: [f32; 3] = [0.0; 3];
 
 /// A scene whose first thing is a square floor with texture coordinates (u to the right, v towards the viewer), and a
 /// window.
-fn floor(material: Material) -> Scene {
+pub fn floor(material: Material) -> Scene {
     let floor = Thing::rectangle([1.5, 1.5], material).placed(facing(ORIGIN, UP));
     let window = Thing::rectangle([0.6, 0.4], glow([4.0, 3.0, 2.0])).placed(facing([0.7, 0.8, -1.3], ORIGIN));
     let mut scene = Stage::new(vec![floor, window], looking([0.0, 1.4, 2.2], ORIGIN)).scene();
@@ -30,7 +30,7 @@ fn floor(material: Material) -> Scene {
     scene
 }
 
-fn textured(scene: &mut Scene, slot: TextureSlot, size: [u32; 2], texels: Vec<[u8; 4]>) {
+pub fn textured(scene: &mut Scene, slot: TextureSlot, size: [u32; 2], texels: Vec<[u8; 4]>) {
     let [width, height] = size;
     scene.images.push(Image { name: "test".into(), width, height, texels });
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler: Sampler::DEFAULT });
@@ -52,7 +52,7 @@ fn difference(left: &LinearImage, right: &LinearImage) -> f32 {
     channels(left).iter().zip(channels(right)).map(|(left, right)| (left - right).abs()).fold(0.0, f32::max) / greatest
 }
 
-fn rich() -> Material {
+pub fn rich() -> Material {
     Material {
         base_color: Vec3::new(0.8, 0.6, 0.9),
         metallic: 0.4,

@@ -1,6 +1,7 @@
 //! `velour info`: what the program finds on this machine, and which tables it carries.
 
-use velour::renderer::device;
+use velour::renderer::RadianceFormat;
+use velour::renderer::device::{self, Found, adapters, instance};
 use velour::table::{GgxTable, SLAB_SIDE, SheenTable, SlabTable};
 
 use crate::console::say;
@@ -8,19 +9,12 @@ use crate::failure::Failure;
 
 pub fn run() -> Result<(), Failure> {
     say(format!("velour {}", env!("CARGO_PKG_VERSION")));
-    let adapters =
-        pollster::block_on(device::instance(wgpu::Backends::all()).enumerate_adapters(wgpu::Backends::all()));
+    let adapters: Vec<Found> =
+        device::BACKENDS.into_iter().flat_map(|backends| pollster::block_on(adapters(&instance(backends)))).collect();
     if adapters.is_empty() {
         say("adapters: none");
     }
-    for adapter in adapters {
-        let about = adapter.get_info();
-        let limits = adapter.limits();
-        say(format!("adapter: {} ({:?}, {:?}, {})", about.name, about.backend, about.device_type, about.driver_info));
-        say(format!("  largest picture: {0}x{0}", limits.max_texture_dimension_2d));
-        say(format!("  largest buffer: {} MiB", limits.max_buffer_size >> 20));
-        say(format!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20));
-    }
+    adapters.iter().for_each(report);
     let table = SheenTable::embedded();
     let [alphas, mus] = table.size();
     say(format!("table: sheen_ltc {alphas}x{mus}, checksum {:08x}", table.checksum()));
@@ -32,4 +26,24 @@ pub fn run() -> Result<(), Failure> {
     let [roughnesses, places] = table.size();
     say(format!("table: ggx_ltc {roughnesses}x{places}, checksum {:08x}", table.checksum()));
     Ok(())
+}
+
+/// What `--adapter` takes, and what the adapter draws.
+fn report(Found { adapter, description }: &Found) {
+    say(format!("adapter: {description}"));
+    if let Some(lack) = device::lack(adapter) {
+        say(format!("  draws no scenes: {lack}"));
+        return;
+    }
+    let limits = adapter.limits();
+    let counts = |format: fn(&wgpu::Adapter, u32) -> Option<RadianceFormat>| {
+        let drawn = [1, 4].into_iter().filter(|&samples| format(adapter, samples).is_some());
+        drawn.map(|samples| samples.to_string()).collect::<Vec<_>>().join(" or ")
+    };
+    let (shown, linear) = (counts(RadianceFormat::display), counts(RadianceFormat::linear));
+    let linear = if linear.is_empty() { format!("{shown}, in 16-bit floats") } else { linear };
+    say(format!("  samples a pixel: .png {shown}; .exr {linear}"));
+    say(format!("  largest picture: {0}x{0}", limits.max_texture_dimension_2d));
+    say(format!("  largest buffer: {} MiB", limits.max_buffer_size >> 20));
+    say(format!("  largest storage binding: {} MiB", limits.max_storage_buffer_binding_size >> 20));
 }

@@ -29,11 +29,11 @@ impl Inputs {
     pub fn load(arguments: &PictureArgs, timing: &mut Timing) -> Result<Self, Failure> {
         let format = Format::of(&arguments.output).map_err(Failure::input)?;
         check_writable(&arguments.output).map_err(Failure::input)?;
-        check_apart(&arguments.output, &arguments.scene)?;
         let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
             let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
             Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
         })?;
+        check_apart(&arguments.output, &scene, arguments)?;
         let state =
             arguments.state.as_deref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
         let edits = state.then(&edits(arguments, &scene)?);

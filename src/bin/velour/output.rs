@@ -4,8 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use velour::file::check_writable;
+use velour::scene::Scene;
 
 use crate::failure::Failure;
+use crate::picture_args::PictureArgs;
 
 /// Makes `folder` if it is not there, and checks that files can be written to `paths` in it.
 pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
@@ -15,13 +17,33 @@ pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
     paths.iter().try_for_each(|path| check_writable(path)).map_err(Failure::input)
 }
 
-/// Whether both paths lead to the same file, which is there.
+/// Whether both paths lead to the same file, which is there: by links too.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
-    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+    identity(one).is_some_and(|one| identity(other) == Some(one))
 }
 
-/// Refuses to write over the scene.
-pub fn check_apart(output: &Path, scene: &Path) -> Result<(), Failure> {
-    let message = || format!("{}: is the scene itself: choose another place", output.display());
-    if is_same_file(output, scene) { Err(Failure::input(message())) } else { Ok(()) }
+/// What a file's names have in common.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata(path).ok().map(|metadata| (metadata.dev(), metadata.ino()))
+}
+
+/// What a file's names have in common; links to one file count as files of their own.
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok()
+}
+
+/// Refuses to write over what the picture is made from: the scene, its buffers and images, and what else flags name.
+pub fn check_apart(output: &Path, scene: &Scene, arguments: &PictureArgs) -> Result<(), Failure> {
+    let is_output = |file: &Path| is_same_file(output, file);
+    let what = match scene.files.iter().position(|file| is_output(file)) {
+        Some(0) => "the scene itself",
+        Some(_) => "a file of the scene",
+        None if arguments.sheen_table.as_deref().is_some_and(is_output) => "the table that is read",
+        None if arguments.state.as_deref().is_some_and(is_output) => "the state that is read",
+        None => return Ok(()),
+    };
+    Err(Failure::input(format!("{}: is {what}: choose another place", output.display())))
 }

@@ -84,6 +84,9 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
     }
     reference::Reference::check_size(arguments.picture.size).map_err(failure)?;
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
+    if let Some(errors) = &arguments.errors {
+        check_apart(errors, &inputs.scene, &arguments.picture)?;
+    }
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
     let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
     if let Some(errors) = &arguments.errors {
@@ -100,7 +103,6 @@ fn check_errors(errors: &Path, arguments: &PictureArgs) -> Result<(), Failure> {
         return refused("standard errors are floating-point numbers: give a name that ends in .exr");
     }
     check_writable(errors).map_err(Failure::input)?;
-    check_apart(errors, &arguments.scene)?;
     let place = |path: &Path| {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         Some((folder.canonicalize().ok()?, path.file_name()?.to_owned()))

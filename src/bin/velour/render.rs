@@ -4,11 +4,11 @@ use clap::Args;
 use serde_json::json;
 use velour::file::write_atomically;
 use velour::picture::Format;
-use velour::renderer::device::{self, DeviceError, Gpu};
-use velour::renderer::{Offscreen, RenderError};
+use velour::renderer::device::{self, Gpu};
+use velour::renderer::{Offscreen, RadianceFormat, RenderError};
 use velour::scene::{Edits, Layering, Scene};
 
-use crate::console::say;
+use crate::console::{complain, say};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::picture_args::PictureArgs;
@@ -20,10 +20,10 @@ use crate::without_device;
 pub struct Render {
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// Samples a pixel; with 1 each pixel is the value at its centre
+    /// Samples a pixel; with 1 each pixel is the value at its centre; an adapter that has no 4 draws 1, and says so
     #[arg(long, default_value = "4", value_name = "1|4", value_parser = samples)]
     pub msaa: u32,
-    /// Part of an adapter's name, as `velour info` lists them
+    /// What `velour info` prints of an adapter, or a part of it; case does not count
     #[arg(long, value_name = "NAME-PART")]
     pub adapter: Option<String>,
 }
@@ -41,18 +41,29 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
     let mut timing = Timing::default();
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
     check_real_time(&inputs.edits)?;
-    let gpu =
-        match timing.measure("device", || pollster::block_on(device::open_offscreen(arguments.adapter.as_deref()))) {
-            Err(DeviceError::NoAdapter) if arguments.adapter.is_none() => {
-                return without_device::render(&arguments.picture, arguments.msaa, &inputs, timing);
-            }
-            gpu => gpu.map_err(Failure::device)?,
-        };
-    let bytes = draw(&gpu, arguments, &inputs, &mut timing)?;
+    let wanted = arguments.adapter.as_deref();
+    let gpu = match timing.measure("device", || pollster::block_on(device::open_offscreen(wanted))) {
+        Err(why) if wanted.is_none() => {
+            return without_device::render(&why, &arguments.picture, arguments.msaa, &inputs, timing);
+        }
+        gpu => gpu.map_err(Failure::device)?,
+    };
+    let (bytes, radiance) = draw(&gpu, arguments, &inputs, &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.picture.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();
-    report(arguments, &inputs.scene, &gpu, &timing);
+    shortfall(radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
+    report(arguments, &inputs.scene, (&gpu, radiance), &timing);
     Ok(())
+}
+
+/// What is to be said where the adapter draws less than was asked for.
+pub fn shortfall(radiance: RadianceFormat, samples: u32, format: Format) -> Option<String> {
+    let samples = (radiance.samples < samples)
+        .then(|| format!("{} of {samples} samples a pixel, so that edges are not smoothed", radiance.samples));
+    let bits = (format == Format::Exr && radiance.bits() < 32)
+        .then(|| "16 of 32 bits a number: 11 binary digits, up to 65504".to_owned());
+    let short: Vec<String> = samples.into_iter().chain(bits).collect();
+    (!short.is_empty()).then(|| format!("the adapter draws {}", short.join("; and ")))
 }
 
 /// Refuses what takes a path tracer.
@@ -69,26 +80,34 @@ pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The picture's file, in memory.
-fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> Result<Vec<u8>, Failure> {
+/// The picture's file, in memory, and how its radiance was kept on the way.
+fn draw(
+    gpu: &Gpu,
+    arguments: &Render,
+    inputs: &Inputs,
+    timing: &mut Timing,
+) -> Result<(Vec<u8>, RadianceFormat), Failure> {
     let Inputs { format, table, .. } = inputs;
     let (drawn, camera) = (inputs.drawn(), inputs.camera());
     let (samples, size, settings) = (arguments.msaa, arguments.picture.size, &drawn.settings);
+    let prepare = match format {
+        Format::Png => Offscreen::nearest_for_display,
+        Format::Exr => Offscreen::nearest_for_linear,
+    };
+    let renderer = timing.measure("pipelines", || prepare(gpu, samples, table, &drawn));
+    let mut renderer = renderer.map_err(failure)?;
+    let radiance = renderer.radiance();
     let encoded = match format {
         Format::Png => {
-            let renderer = timing.measure("pipelines", || Offscreen::for_display(gpu, samples, table, &drawn));
-            let mut renderer = renderer.map_err(failure)?;
             let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, &camera, size, settings)));
             timing.measure("encode", || Ok(picture?.to_png()))
         }
         Format::Exr => {
-            let renderer = timing.measure("pipelines", || Offscreen::for_linear(gpu, samples, table, &drawn));
-            let mut renderer = renderer.map_err(failure)?;
             let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, &camera, size, settings)));
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };
-    encoded.map_err(failure)?.map_err(Failure::input)
+    Ok((encoded.map_err(failure)?.map_err(Failure::input)?, radiance))
 }
 
 /// A lost device is not bad input.
@@ -99,7 +118,7 @@ pub fn failure(error: RenderError) -> Failure {
     }
 }
 
-fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
+fn report(arguments: &Render, scene: &Scene, (gpu, radiance): (&Gpu, RadianceFormat), timing: &Timing) {
     let adapter = gpu.adapter.get_info();
     let [width, height] = arguments.picture.size;
     let output = arguments.picture.output.display();
@@ -111,7 +130,7 @@ fn report(arguments: &Render, scene: &Scene, gpu: &Gpu, timing: &Timing) {
     let figures = json!({
         "output": output.to_string(),
         "size": arguments.picture.size,
-        "msaa": arguments.msaa,
+        "msaa": radiance.samples,
         "adapter": adapter.name,
         "backend": format!("{:?}", adapter.backend).to_lowercase(),
         "triangles": scene.instances.iter().map(|instance| triangles(instance.mesh)).sum::<usize>(),

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use velour::file::{check_writable, write_atomically};
-use velour::renderer::Offscreen;
-use velour::renderer::device::{self, DeviceError};
+use velour::picture::Format;
+use velour::renderer::{Offscreen, RadianceFormat, device};
 use velour::scene::assets::DRAPE;
 use velour::scene::{Edits, Scene, gltf};
 use velour::table::SheenTable;
+use velour::viewer::ViewerError;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
@@ -38,33 +39,39 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
     velour::viewer::run(event_loop, &name, (scene, edits), SheenTable::embedded()).map_err(Failure::device)
 }
 
-/// The viewer on the default scene; without a display, the picture that it would show.
+/// The viewer on the default scene; without a display, or a device that draws on it, the picture that it would show.
 pub fn run_or_render_default() -> Result<(), Failure> {
     let scene = DRAPE.load().map_err(Failure::input)?;
-    match velour::viewer::event_loop() {
-        Ok(event_loop) => {
-            velour::viewer::run(event_loop, DRAPE.name, (scene, Edits::default()), SheenTable::embedded())
-                .map_err(Failure::device)
-        }
-        Err(no_display) => {
+    let shown = velour::viewer::event_loop().and_then(|event_loop| {
+        velour::viewer::run(event_loop, DRAPE.name, (scene, Edits::default()), SheenTable::embedded())
+    });
+    match shown {
+        Err(why @ (ViewerError::NoDisplay(_) | ViewerError::Device(_))) => {
             let output = Path::new("velour.png");
-            render_default(&scene, output)?;
-            say(format!("{no_display}: the default scene is rendered to {}", output.display()));
+            render_default(&DRAPE.load().map_err(Failure::input)?, output)?;
+            say(format!("{why}: the default scene is rendered to {}", output.display()));
             Ok(())
         }
+        shown => shown.map_err(Failure::device),
     }
 }
 
 /// What `velour render` makes of the scene when no flag is given.
 fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SIZE: [u32; 2] = [1280, 720];
+    const SAMPLES: u32 = 4;
     check_writable(output).map_err(Failure::input)?;
     let edits = Edits::default();
     let picture = match pollster::block_on(device::open_offscreen(None)) {
-        Err(DeviceError::NoAdapter) => without_device::plain(scene, &edits, SIZE)?,
-        gpu => {
-            let gpu = gpu.map_err(Failure::device)?;
-            gpu.block_on(Offscreen::screenshot(&gpu, scene, &edits, SIZE)).map_err(render::failure)?
+        Err(why) => without_device::plain(&why, scene, &edits, SIZE)?,
+        Ok(gpu) => {
+            let picture = gpu.block_on(Offscreen::screenshot(&gpu, scene, &edits, SIZE)).map_err(render::failure)?;
+            let radiance = RadianceFormat::nearest_display(&gpu.adapter, SAMPLES);
+            radiance
+                .and_then(|radiance| render::shortfall(radiance, SAMPLES, Format::Png))
+                .into_iter()
+                .for_each(complain);
+            picture
         }
     };
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)

@@ -1,6 +1,7 @@
 //! What is drawn where there is no graphics device: the reference's picture of what real time would show.
 
 use velour::reference::{Effort, Filter, Options, SpecularModel};
+use velour::renderer::DeviceError;
 #[cfg(feature = "window")]
 use {
     crate::progress::with_progress,
@@ -17,28 +18,32 @@ use crate::picture_args::PictureArgs;
 use crate::reference;
 use crate::timing::Timing;
 
-const NO_DEVICE: &str = "no graphics adapter was found: the reference draws the picture on the processor (scripts/setup installs a Vulkan driver)";
-
 /// Nobody has said how much work to do. The light that the fitted lobes scatter has no noise, so that these samples
 /// only smooth edges; earlier models and the reciprocal rule keep a few percent of noise.
 const EFFORT: Effort = Effort { samples: 16, seed: 0 };
 
 /// What `velour render` draws with `msaa` samples a pixel: without shadows; with one sample, at the pixels' centres.
-pub fn render(arguments: &PictureArgs, msaa: u32, inputs: &Inputs, mut timing: Timing) -> Result<(), Failure> {
+pub fn render(
+    why: &DeviceError,
+    arguments: &PictureArgs,
+    msaa: u32,
+    inputs: &Inputs,
+    mut timing: Timing,
+) -> Result<(), Failure> {
     let filter = if msaa == 1 { Filter::Centre } else { Filter::Box };
     let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
-    complain(NO_DEVICE);
+    complain(format!("{why}; the reference draws the picture, on the processor"));
     let (picture, counts) = reference::render(inputs, arguments, options, EFFORT, &mut timing)?;
     reference::finish(arguments, inputs, &picture, counts, &mut timing)
 }
 
 /// What the viewer shows of a scene, without shadows.
 #[cfg(feature = "window")]
-pub fn plain(scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<DisplayImage, Failure> {
+pub fn plain(why: &DeviceError, scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<DisplayImage, Failure> {
     let options = Options { shadows: false, ..Options::default() };
     let drawn = Drawn::new(scene, edits);
     let renderer = Reference::new(&drawn, &SheenTable::embedded(), options).map_err(reference::failure)?;
-    complain(NO_DEVICE);
+    complain(format!("{why}; the reference draws the picture, on the processor"));
     let picture = with_progress("reference", |step| {
         renderer.render(&edits.camera(scene), size, EFFORT, |done, all| {
             step(done as usize, all as usize);

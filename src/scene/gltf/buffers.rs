@@ -1,7 +1,7 @@
 //! The bytes that accessors point into: within the file, beside it, or spelled out in a data URI.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fs::File;
 use std::io::Read;
 use std::ops::Deref;
@@ -91,6 +91,14 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
         buffers.push(bytes);
     }
     Ok(buffers)
+}
+
+/// The files that the document's buffers and images name.
+pub fn named_files(root: &json::Root, folder: Option<&Path>) -> BTreeSet<PathBuf> {
+    let buffers = root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+    let images = root.images.iter().filter_map(|image| image.uri.as_deref());
+    let files = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
+    files.filter_map(|uri| resolve(uri, folder).ok()).collect()
 }
 
 /// The bytes that a URI stands for: a file in `folder`, read only once, or the data in the URI itself.

@@ -57,8 +57,10 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
     // Only a path without a file name has no parent.
     let folder = path.parent().unwrap_or(Path::new("."));
-    let scene = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder)));
-    scene.map(complete).map_err(|fault| SceneError::new(&file, fault))
+    let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder)));
+    let mut scene = read.map(complete).map_err(|fault| SceneError::new(&file, fault))?;
+    scene.files.insert(0, path.to_owned());
+    Ok(scene)
 }
 
 /// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
@@ -88,6 +90,7 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> 
         return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
     }
     textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
+    scene.files = buffers::named_files(root, folder).into_iter().collect();
     Ok((scene, notices))
 }
 

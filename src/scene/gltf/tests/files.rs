@@ -110,3 +110,18 @@ fn a_scene_without_a_folder_reads_no_files() {
     let error = crate::scene::gltf::from_slice(file.json.to_string().as_bytes(), "memory").unwrap_err().to_string();
     assert!(error.contains("memory: buffer 0") && error.contains("no folder"), "{error}");
 }
+
+#[test]
+fn the_scene_knows_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut file = Builder::studio();
+    let (path, data) = (folder.path().join("scene.gltf"), folder.path().join("data.bin"));
+    fs::write(&data, &file.bytes).unwrap();
+    file.json["buffers"][0]["uri"] = json!("data.bin");
+    // Whether it is read or not.
+    file.json["images"] =
+        json!([{ "uri": "maps/cl%6fth.png" }, { "uri": "data:image/png;base64,AAAA" }, { "uri": "data.bin" }]);
+    fs::write(&path, file.json.to_string()).unwrap();
+    let cloth = folder.path().join("maps/cloth.png");
+    assert_eq!(load(&path).unwrap().files, [path, data, cloth]);
+}
