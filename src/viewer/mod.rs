@@ -3,11 +3,13 @@
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
 mod frame;
+mod frame_time;
 mod layout;
 mod material;
 mod native;
 mod orbit;
 mod panel;
+mod screen;
 mod state;
 mod widgets;
 mod window;
