@@ -12,6 +12,7 @@ use velour::table::SheenTable;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
+use crate::output::check_apart;
 use crate::{render, without_device};
 
 /// The flags of `velour view`.
@@ -22,31 +23,41 @@ pub struct View {
 }
 
 pub fn run(arguments: &View) -> Result<(), Failure> {
-    let scene = match &arguments.scene {
-        Some(path) => gltf::load(path).map_err(Failure::input)?,
-        None => DRAPE.load().map_err(Failure::input)?,
-    };
-    let name = arguments.scene.as_ref().map_or(DRAPE.name.into(), |path| path.display().to_string());
+    let (name, scene) = load(arguments.scene.as_deref())?;
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
     let event_loop = velour::viewer::event_loop().map_err(no_display)?;
     scene.notices.iter().for_each(complain);
     velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
 }
 
-/// The viewer on the default scene; without a display, the picture that it would show.
-pub fn run_or_render_default() -> Result<(), Failure> {
-    let scene = DRAPE.load().map_err(Failure::input)?;
+/// The viewer; without a display, the picture that it would show.
+pub fn run_or_render(path: Option<&Path>) -> Result<(), Failure> {
+    let (name, scene) = load(path)?;
     match velour::viewer::event_loop() {
         Ok(event_loop) => {
-            velour::viewer::run(event_loop, DRAPE.name, scene, SheenTable::embedded()).map_err(Failure::device)
+            scene.notices.iter().for_each(complain);
+            velour::viewer::run(event_loop, &name, scene, SheenTable::embedded()).map_err(Failure::device)
         }
         Err(no_display) => {
             let output = Path::new("velour.png");
+            if let Some(path) = path {
+                check_apart(output, path)?;
+            }
             render_default(&scene, output)?;
-            say(format!("{no_display}: the default scene is rendered to {}", output.display()));
+            scene.notices.iter().for_each(complain);
+            let what = if path.is_some() { &name } else { "the default scene" };
+            say(format!("{no_display}: {what} is rendered to {}", output.display()));
             Ok(())
         }
     }
+}
+
+/// The scene in a file, or the default one, and its name.
+fn load(path: Option<&Path>) -> Result<(String, Scene), Failure> {
+    let Some(path) = path else {
+        return Ok((DRAPE.name.to_owned(), DRAPE.load().map_err(Failure::input)?));
+    };
+    Ok((path.display().to_string(), gltf::load(path).map_err(Failure::input)?))
 }
 
 /// What `velour render` makes of the scene when no flag is given.
