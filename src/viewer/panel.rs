@@ -4,6 +4,7 @@ use egui::Ui;
 use glam::Vec3;
 
 use super::material;
+use super::notices;
 use super::state::{Change, State};
 use super::widgets::{color_button, slider};
 use crate::picture::ToneCurve;
@@ -27,6 +28,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Outcome {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
+        notices::show(ui, &state.scene.notices);
         ui.separator();
         let change = material::show(ui, state).max(picture(ui, state)).max(lights(ui, state));
         outcome.change = change;

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use egui::ViewportId;
 use winit::application::ApplicationHandler;
-use winit::dpi::LogicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowId};
 
 use super::ViewerError;
@@ -17,6 +17,7 @@ use super::layout::{self, Layout};
 use super::native::{self, Instant};
 use super::screen::Screen;
 use super::state::State;
+use super::window_size;
 use crate::renderer::device;
 use crate::table::SheenTable;
 
@@ -74,16 +75,24 @@ impl App {
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
+        // On which monitor the window appears is the system's choice, where it has a first one, that.
+        let mut monitors: Vec<MonitorHandle> = event_loop.primary_monitor().into_iter().collect();
+        if monitors.is_empty() {
+            monitors.extend(event_loop.available_monitors());
+        }
+        let [size, least] = window_size::sizes(monitors.iter().map(|monitor| (monitor.size(), monitor.scale_factor())));
         let attributes = Window::default_attributes()
             .with_title(format!("Velour - {}", self.state.name))
-            .with_inner_size(LogicalSize::new(1280, 720))
-            .with_min_inner_size(LogicalSize::new(480, 320));
+            .with_inner_size(size)
+            .with_min_inner_size(least);
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
         let window = Arc::new(window);
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let frame = Frame::new(surface, gpu, window.inner_size().into(), &self.state, &self.table)?;
+        let context = egui::Context::default();
+        context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
         let egui = egui_winit::State::new(
-            egui::Context::default(),
+            context,
             ViewportId::ROOT,
             &window,
             Some(window.scale_factor() as f32),
