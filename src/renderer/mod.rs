@@ -92,6 +92,7 @@ pub struct Renderer {
     surfaces: SurfacesPass,
     display: DisplayPass,
     targets: Option<Targets>,
+    targets_made: usize,
 }
 
 impl Renderer {
@@ -100,7 +101,7 @@ impl Renderer {
         let resident = Resident::new(gpu, drawn)?;
         let surfaces = SurfacesPass::new(gpu, format.radiance, table, &resident);
         let display = DisplayPass::new(&gpu.device, format.radiance, format.output, format.measured);
-        Ok(Self { format, resident, surfaces, display, targets: None })
+        Ok(Self { format, resident, surfaces, display, targets: None, targets_made: 0 })
     }
 
     /// Sends what other edits make of the same scene to the device: materials, lights and places.
@@ -123,10 +124,18 @@ impl Renderer {
     ) {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
-            _ => Targets::new(&gpu.device, size, self.format.radiance),
+            _ => {
+                self.targets_made += 1;
+                Targets::new(&gpu.device, size, self.format.radiance)
+            }
         };
         self.surfaces.encode(&gpu.queue, encoder, &targets, &self.resident, (view, settings, showing.gain()));
         self.targets = Some(targets);
+    }
+
+    /// How many pipelines and targets `draw` has drawn with so far: where it grows, a frame took longer than others will.
+    pub fn made(&self) -> usize {
+        self.surfaces.made() + self.targets_made
     }
 
     /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the

@@ -92,6 +92,11 @@ impl SurfacesPass {
         }
     }
 
+    /// How many pipelines there are.
+    pub(super) fn made(&self) -> usize {
+        self.made.len()
+    }
+
     /// Binds buffers that were made anew.
     pub(super) fn rebind(&mut self, device: &Device, resident: &Resident) {
         self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);

@@ -1,9 +1,12 @@
 //! One frame of the window: the scene's passes, and egui over them.
 
+use egui::TextureId;
+use egui::epaint::textures::TexturesDelta;
 use egui_wgpu::ScreenDescriptor;
 use wgpu::{CurrentSurfaceTexture, TextureView};
 
 use super::change::Change;
+use super::screen::Screen;
 use super::state::State;
 use super::{ViewerError, native};
 use crate::picture::DisplayImage;
@@ -20,11 +23,23 @@ const SAMPLES_IN_SOFTWARE: u32 = 1;
 /// What became of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Presented {
-    Yes,
+    Yes(Redraw),
     /// The surface had changed: draw again.
     Again,
     /// Nobody can see the window: draw when something happens.
     Hidden,
+}
+
+/// What of the scene was drawn for a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Redraw {
+    /// Nothing: what had been drawn before was shown again.
+    Nothing,
+    /// All of it, with something that was not there before: pipelines, which drivers compile when they draw with them
+    /// first, or targets of a new size.
+    First,
+    /// All of it, with what was there already.
+    Again,
 }
 
 /// The surface and what draws on it.
@@ -34,6 +49,10 @@ pub(super) struct Frame {
     gpu: Gpu,
     renderer: Renderer,
     egui: egui_wgpu::Renderer,
+    /// Textures that egui has no use for after its last pass.
+    freed: Vec<TextureId>,
+    /// `Renderer::made` when the scene was drawn last.
+    made: usize,
     /// Where the picture was drawn last.
     place: Rect,
 }
@@ -63,7 +82,8 @@ impl Frame {
         let format = Format { radiance, output: configuration.format, measured: false };
         let renderer = Renderer::new(&gpu, format, table, &state.drawn())?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
-        Ok(Self { surface, configuration, gpu, renderer, egui, place: Rect::full([0, 0]) })
+        let place = Rect::full([0, 0]);
+        Ok(Self { surface, configuration, gpu, renderer, egui, freed: Vec::new(), made: 0, place })
     }
 
     pub fn max_texture_side(&self) -> usize {
@@ -76,20 +96,21 @@ impl Frame {
         self.surface.configure(&self.gpu.device, &self.configuration);
     }
 
-    /// Draws what has changed and presents it.
-    pub fn draw(
-        &mut self,
-        (context, mut output): (&egui::Context, egui::FullOutput),
-        state: &State,
-        picture: egui::Rect,
-        change: Change,
-    ) -> Result<Presented, ViewerError> {
-        for (id, deltas) in output.textures_delta.set.drain() {
+    /// Brings egui's textures to where a pass wants them.
+    pub fn update_textures(&mut self, mut delta: TexturesDelta) {
+        // The pass that frees a texture may still paint with it, the next one does not.
+        for id in std::mem::replace(&mut self.freed, delta.free.drain().collect()) {
+            self.egui.free_texture(&id);
+        }
+        for (id, deltas) in delta.set.drain() {
             for delta in deltas {
                 self.egui.update_texture(&self.gpu.device, &self.gpu.queue, id, &delta);
             }
         }
-        let freed = std::mem::take(&mut output.textures_delta.free);
+    }
+
+    /// Draws what has changed and presents it.
+    pub fn draw(&mut self, context: &egui::Context, screen: &Screen, state: &State) -> Result<Presented, ViewerError> {
         let surface_texture = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
@@ -104,16 +125,15 @@ impl Frame {
         };
         let view = surface_texture.texture.create_view(&Default::default());
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.draw_scene(&mut encoder, &view, state, self.place_in_pixels(picture, output.pixels_per_point), change)?;
-        let jobs = context.tessellate(output.shapes, output.pixels_per_point);
-        self.draw_egui(&mut encoder, &view, &jobs, output.pixels_per_point);
+        let drawn = self.draw_scene(&mut encoder, &view, state, screen)?;
+        let jobs = context.tessellate(screen.shapes.clone(), screen.pixels_per_point);
+        self.draw_egui(&mut encoder, &view, &jobs, screen.pixels_per_point);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(surface_texture);
         // Never more than one frame ahead, so that a slow driver still answers to the latest drag; and the frame time is
         // the frame's.
         native::finish(&self.gpu);
-        freed.iter().for_each(|id| self.egui.free_texture(id));
-        Ok(Presented::Yes)
+        Ok(Presented::Yes(drawn))
     }
 
     fn draw_scene(
@@ -121,22 +141,26 @@ impl Frame {
         encoder: &mut wgpu::CommandEncoder,
         output: &TextureView,
         state: &State,
-        place: Rect,
-        change: Change,
-    ) -> Result<(), ViewerError> {
-        if change == Change::Scene {
+        screen: &Screen,
+    ) -> Result<Redraw, ViewerError> {
+        let place = self.place_in_pixels(screen.picture, screen.pixels_per_point);
+        if screen.change == Change::Scene {
             self.renderer.update(&self.gpu, &state.drawn())?;
         }
         let size = [place.width, place.height];
         let settings = state.edits.settings();
         let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
-        if change >= Change::Drawn || place != self.place {
+        let mut drawn = Redraw::Nothing;
+        if screen.change >= Change::Drawn || size != [self.place.width, self.place.height] {
             let view = View::new(&state.orbit().camera(), size, Rect::full(size));
             self.renderer.draw(&self.gpu, encoder, size, (&view, &settings, showing));
-            self.place = place;
+            let made = self.renderer.made();
+            drawn = if made == self.made { Redraw::Again } else { Redraw::First };
+            self.made = made;
         }
+        self.place = place;
         self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
-        Ok(())
+        Ok(drawn)
     }
 
     fn draw_egui(

@@ -4,16 +4,22 @@
 
 mod change;
 mod frame;
+mod frame_time;
 mod layout;
 mod lights;
 mod material;
 mod native;
+mod notices;
 mod panel;
+mod screen;
+#[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
+mod server;
 mod state;
 #[cfg(test)]
 mod tests;
 mod widgets;
 mod window;
+mod window_size;
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
@@ -41,12 +47,12 @@ pub enum ViewerError {
 
 /// Connects to the display; [`ViewerError::NoDisplay`] where there is none.
 pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
+    let no_server = || ViewerError::NoDisplay("no Wayland or X11 server answers".to_owned());
+    let mut builder = native::event_loop_builder().ok_or_else(no_server)?;
     // winit's own message names a line of its source.
-    EventLoop::new().map_err(|error| match error {
+    builder.build().map_err(|error| match error {
         EventLoopError::NotSupported(error) => ViewerError::NoDisplay(error.to_string()),
-        EventLoopError::Os(_) | EventLoopError::RecreationAttempt | EventLoopError::ExitFailure(_) => {
-            ViewerError::NoDisplay("no Wayland or X11 server answers".to_owned())
-        }
+        EventLoopError::Os(_) | EventLoopError::RecreationAttempt | EventLoopError::ExitFailure(_) => no_server(),
     })
 }
 

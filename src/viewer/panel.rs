@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::state::State;
 use super::widgets::{Glow, color_button, slider};
-use super::{lights, material};
+use super::{lights, material, notices};
 use crate::picture::ToneCurve;
 use crate::scene::Edits;
 
@@ -31,6 +31,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
+        notices::show(ui, &state.scene.notices);
         ui.separator();
         material::show(ui, state);
         picture(ui, &mut state.edits);

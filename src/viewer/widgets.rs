@@ -62,11 +62,19 @@ fn typed(text: &str, before: f64) -> Option<f64> {
     if text == written(before) { None } else { text.parse().ok().filter(|number: &f64| number.is_finite()) }
 }
 
+/// What egui's picker may add to a channel by rounding on the way through hue, saturation and value; the least that a
+/// user can change is thirty times as much.
+const ROUNDING: f32 = 1e-5;
+
 /// A button that opens a colour picker on a linear Rec. 709 colour in [0, 1].
 pub fn color_button(ui: &mut Ui, color: &mut Vec3) {
     let mut channels = color.to_array();
+    // egui also calls a colour changed that its open picker has only rounded.
     if ui.color_edit_button_rgb(&mut channels).changed() {
-        *color = Vec3::from_array(channels).clamp(Vec3::ZERO, Vec3::ONE);
+        let picked = Vec3::from_array(channels).clamp(Vec3::ZERO, Vec3::ONE);
+        if !picked.abs_diff_eq(*color, ROUNDING) {
+            *color = picked;
+        }
     }
 }
 

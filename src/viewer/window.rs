@@ -5,18 +5,30 @@ use std::time::Duration;
 
 use egui::ViewportId;
 use winit::application::ApplicationHandler;
-use winit::dpi::LogicalSize;
-use winit::event::{StartCause, WindowEvent};
+use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowId};
 
-use super::change::Change;
-use super::frame::{Frame, Presented};
+use super::ViewerError;
+use super::frame::{Frame, Presented, Redraw};
+use super::frame_time::FrameTimes;
+use super::layout::{self, Layout};
+use super::native::{self, Instant};
 use super::panel::Request;
+use super::screen::Screen;
 use super::state::State;
-use super::{ViewerError, native};
+use super::window_size;
 use crate::renderer::device;
 use crate::table::SheenTable;
+
+/// The least time between two passes for a pointer that only hovers: a mouse may tell of its moves a thousand times a
+/// second, a display shows sixty pictures.
+const PACE: Duration = Duration::from_millis(16);
+
+/// How long egui waits for its next pass after one that has led to nothing. It asks for two more after all input, so that
+/// what lags behind can settle, and no frame makes it wait.
+const REST: Duration = Duration::from_millis(100);
 
 /// The program between its events.
 pub(super) struct App {
@@ -32,17 +44,30 @@ struct Open {
     window: Arc<Window>,
     frame: Frame,
     egui: egui_winit::State,
-    /// The joint outcome of the passes over the user interface since the last frame.
-    pending: Pending,
+    screen: Screen,
+    frame_times: FrameTimes,
+    /// When egui had its last pass.
+    passed: Instant,
+    /// When it gets its next; never while nothing happens.
+    due: Option<Instant>,
 }
 
-/// Passes over the user interface may come more often than frames: see `App::window_event`.
-#[derive(Default)]
-struct Pending {
-    output: egui::FullOutput,
-    change: Change,
-    request: Option<Request>,
-    picture: Option<egui::Rect>,
+impl Open {
+    /// The next pass comes at this time, or when it was due before, if that is earlier.
+    fn wake(&mut self, at: Instant) {
+        self.due = Some(self.due.map_or(at, |due| due.min(at)));
+    }
+
+    fn is_due(&self) -> bool {
+        self.due.is_some_and(|due| due <= native::now())
+    }
+
+    /// When egui hears of an event.
+    fn when_to_tell(&self, event: &WindowEvent) -> Instant {
+        let is_move = matches!(event, WindowEvent::CursorMoved { .. });
+        let is_hover = is_move && !self.egui.egui_ctx().input(|input| input.pointer.any_down());
+        if is_hover { self.passed + PACE } else { native::now() }
+    }
 }
 
 impl App {
@@ -51,16 +76,24 @@ impl App {
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
+        // On which monitor the window appears is the system's choice, where it has a first one, that.
+        let mut monitors: Vec<MonitorHandle> = event_loop.primary_monitor().into_iter().collect();
+        if monitors.is_empty() {
+            monitors.extend(event_loop.available_monitors());
+        }
+        let [size, least] = window_size::sizes(monitors.iter().map(|monitor| (monitor.size(), monitor.scale_factor())));
         let attributes = Window::default_attributes()
             .with_title(format!("Velour - {}", self.state.name))
-            .with_inner_size(LogicalSize::new(1280, 720))
-            .with_min_inner_size(LogicalSize::new(480, 320));
+            .with_inner_size(size)
+            .with_min_inner_size(least);
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
         let window = Arc::new(window);
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let frame = Frame::new(surface, gpu, window.inner_size().into(), &self.state, &self.table)?;
+        let context = egui::Context::default();
+        context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
         let egui = egui_winit::State::new(
-            egui::Context::default(),
+            context,
             ViewportId::ROOT,
             &window,
             Some(window.scale_factor() as f32),
@@ -68,7 +101,9 @@ impl App {
             Some(frame.max_texture_side()),
         );
         window.request_redraw();
-        Ok(Open { window, frame, egui, pending: Pending { change: Change::Scene, ..Default::default() } })
+        let now = native::now();
+        let (screen, frame_times) = (Screen::new(), FrameTimes::default());
+        Ok(Open { window, frame, egui, screen, frame_times, passed: now, due: Some(now) })
     }
 
     /// Lets egui see the events so far and keeps what they lead to.
@@ -76,45 +111,61 @@ impl App {
         let Some(open) = &mut self.open else { return };
         let input = open.egui.take_egui_input(&open.window);
         let context = open.egui.egui_ctx().clone();
-        let mut layout = None;
-        let mut output = context.run_ui(input, |ui| layout = Some(super::layout::show(ui, &mut self.state)));
+        let mut layout = Layout::default();
+        let mut output = context.run_ui(input, |ui| {
+            let last = layout::show(ui, &mut self.state);
+            // egui may want to do it all over with the sizes that it has found, and without the events.
+            let (change, request) = (layout.change.max(last.change), layout.request.or(last.request));
+            layout = Layout { change, request, ..last };
+        });
         open.egui.handle_platform_output(&open.window, std::mem::take(&mut output.platform_output));
-        open.pending.output.append(output);
-        if let Some(layout) = layout {
-            open.pending.change = open.pending.change.max(layout.change);
-            open.pending.request = layout.request.or(open.pending.request);
-            open.pending.picture = Some(layout.picture);
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
+        let textures = open.screen.take(&layout, output);
+        open.frame.update_textures(textures);
+        let delay = if open.screen.is_stale() { delay } else { delay.max(REST) };
+        (open.passed, open.due) = (native::now(), native::after(delay));
+        if let Some(request) = layout.request {
+            self.state.message = match request {
+                Request::Screenshot => open.frame.screenshot(&self.state, &self.table),
+                Request::SaveState => native::save_state(&self.state),
+            };
+            open.wake(open.passed);
         }
     }
 
-    fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
-        let start = native::now();
+    /// A pass, and a frame if that has led to something new.
+    fn follow(&mut self) {
         self.pass();
+        if let Some(open) = self.open.as_ref().filter(|open| open.screen.is_stale()) {
+            open.window.request_redraw();
+        }
+    }
+
+    /// Presents a frame, whatever has changed: the system may have lost the last one.
+    fn redraw(&mut self) -> Result<(), ViewerError> {
+        let start = native::now();
+        if self.open.as_ref().is_some_and(Open::is_due) {
+            self.pass();
+        }
         let Some(open) = &mut self.open else { return Ok(()) };
+        open.screen.lose();
         let shown = open.window.inner_size();
         if shown.width == 0 || shown.height == 0 {
             // Minimised: what has changed is drawn when the window comes back.
             return Ok(());
         }
-        let Pending { output, change, request, picture } = std::mem::take(&mut open.pending);
-        let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
-        let place = picture.unwrap_or(egui::Rect::ZERO);
-        let presented = open.frame.draw((open.egui.egui_ctx(), output), &self.state, place, change)?;
-        if presented != Presented::Yes {
-            open.pending.change = change;
-        } else if change >= Change::Drawn {
-            self.state.frame_time = Some(start.elapsed());
-        }
-        match request {
-            Some(Request::Screenshot) => self.state.message = open.frame.screenshot(&self.state, &self.table),
-            Some(Request::SaveState) => self.state.message = native::save_state(&self.state),
-            None => {}
-        }
-        if presented == Presented::Again || delay.is_zero() || request.is_some() {
-            open.window.request_redraw();
-        } else {
-            let wake = native::after(delay);
-            event_loop.set_control_flow(wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+        match open.frame.draw(open.egui.egui_ctx(), &open.screen, &self.state)? {
+            Presented::Yes(drawn) => {
+                open.screen.presented();
+                if drawn == Redraw::Again {
+                    open.frame_times.add(start.elapsed());
+                    self.state.frame_time = open.frame_times.median();
+                    // The panel shows it.
+                    open.wake(native::now());
+                }
+            }
+            Presented::Again => open.window.request_redraw(),
+            Presented::Hidden => {}
         }
         Ok(())
     }
@@ -138,12 +189,6 @@ async fn open_surface(window: &Arc<Window>) -> Result<(wgpu::Surface<'static>, d
 }
 
 impl ApplicationHandler for App {
-    fn new_events(&mut self, _event_loop: &ActiveEventLoop, cause: StartCause) {
-        if let (StartCause::ResumeTimeReached { .. }, Some(open)) = (cause, &self.open) {
-            open.window.request_redraw();
-        }
-    }
-
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.open.is_some() {
             return;
@@ -167,25 +212,34 @@ impl ApplicationHandler for App {
         let Some(open) = &mut self.open else { return };
         let response = open.egui.on_window_event(&open.window, &event);
         if button {
-            self.pass();
+            self.follow();
         }
         let Some(open) = &mut self.open else { return };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::RedrawRequested => {
-                if let Err(failure) = self.redraw(event_loop) {
+                if let Err(failure) = self.redraw() {
                     self.failure = Some(failure);
                     event_loop.exit();
                 }
             }
             WindowEvent::Resized(size) => {
                 open.frame.resize(size.into());
-                open.pending.change = open.pending.change.max(Change::Drawn);
-                open.window.request_redraw();
+                open.screen.lose();
+                open.wake(native::now());
             }
             // egui answers every RedrawRequested by asking for a repaint: heeding that, the window would never rest.
-            _ if response.repaint => open.window.request_redraw(),
+            _ if response.repaint => open.wake(open.when_to_tell(&event)),
             _ => {}
         }
+    }
+
+    /// All events so far have been seen.
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        if self.open.as_ref().is_some_and(Open::is_due) {
+            self.follow();
+        }
+        let due = self.open.as_ref().and_then(|open| open.due);
+        event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

@@ -130,7 +130,22 @@ fn files_that_are_no_scene() {
     ] {
         bench.refused(&mut bench.command(&format!("render {name} -o out.png")), 2, name);
         bench.refused(&mut bench.command(&format!("view {name}")), 2, name);
+        bench.refused(&mut bench.command(name), 2, name);
     }
+}
+
+#[test]
+fn words_that_are_neither_command_nor_scene() {
+    let bench = Bench::new();
+    for line in ["rendre", "rendre scene.glb -o out.png", "gone.glb --msaa 1"] {
+        bench.refused(&mut bench.command(line), 2, "neither a command nor a file");
+    }
+    for line in ["-o out.png", "scene.glb -o out.png", "scene.glb scene.glb", "scene.glb render"] {
+        bench.refused(&mut bench.command(line), 2, "velour --help");
+    }
+    // The picture would take the scene's place.
+    bench.put("velour.png", small_stage().glb());
+    bench.refused(&mut bench.command("velour.png"), 2, "is the scene itself");
 }
 
 #[test]

@@ -175,6 +175,30 @@ fn without_a_display_the_default_scene_is_rendered() {
 }
 
 #[test]
+fn without_a_display_a_scene_alone_is_rendered() {
+    let bench = Bench::new();
+    // A file may be called as a command is.
+    bench.put("render", small_stage().glb());
+    let said = bench.run("./render");
+    assert!(said.stdout.contains("./render is rendered to velour.png"), "{said:?}");
+    assert_eq!(said.stderr, "");
+    bench.run("render scene.glb -o same.png");
+    assert_eq!(std::fs::read(bench.path("velour.png")).unwrap(), std::fs::read(bench.path("same.png")).unwrap());
+    assert_eq!(bench.names(), ["render", "same.png", "scene.glb", "velour.png"]);
+}
+
+#[test]
+fn a_scene_alone_comes_with_its_notices() {
+    let bench = Bench::new();
+    let mut stage = small_stage();
+    stage.things.pop();
+    bench.put("unlit.glb", stage.glb());
+    let said = bench.run("unlit.glb");
+    assert_eq!(said.stderr, bench.run("render unlit.glb -o out.png").stderr);
+    assert!(said.stderr.starts_with("velour: "), "{said:?}");
+}
+
+#[test]
 fn the_file_and_the_library_give_the_same_picture() {
     let bench = Bench::new();
     bench.run(&format!("render scene.glb -o out.exr {MEASURED}"));

@@ -1,6 +1,9 @@
 //! The commands; the flags of each stand in its own file.
 
-use clap::{Parser, Subcommand};
+use std::ffi::OsStr;
+use std::path::Path;
+
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::compare::Compare;
 use crate::figures::Figures;
@@ -13,15 +16,30 @@ use crate::view::View;
 
 /// Real-time sheen for fuzzy and dusty surfaces under polygonal area lights.
 ///
-/// Without a command: the viewer on the default scene; without a display, that scene in velour.png.
+/// Without a command: the viewer on a scene; without a display, that scene in velour.png.
 #[derive(Parser)]
 #[command(
     version,
+    args_conflicts_with_subcommands = true,
     after_help = "Exit codes: 0 done; 1 a comparison or check fell short; 2 bad usage or bad input; 3 no device."
 )]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
+    /// What the viewer opens: a glTF 2.0 scene, .glb or .gltf (./render where its name is a command's) [default: a
+    /// velvet drape]
+    #[cfg(feature = "window")]
+    pub scene: Option<std::path::PathBuf>,
+}
+
+/// Whether the first word of a command line names nothing: no flag, no command, no file that is there.
+pub fn is_stray(word: &OsStr) -> bool {
+    let is_flag = word.as_encoded_bytes().starts_with(b"-");
+    let mut arguments = Arguments::command();
+    // This adds clap's own command, `help`.
+    arguments.build();
+    // What cannot be asked for may be there: whoever reads it says why not.
+    !is_flag && arguments.find_subcommand(word).is_none() && !Path::new(word).try_exists().unwrap_or(true)
 }
 
 #[derive(Subcommand)]
@@ -61,10 +79,19 @@ pub enum Command {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn words_that_name_nothing_are_stray() {
+        for word in ["rendre", "gone.glb", "./render", "", "Render"] {
+            assert!(is_stray(word.as_ref()), "{word}");
+        }
+        for word in ["render", "help", "info", "-o", "--alpha", "Cargo.toml", "./Cargo.toml", "src"] {
+            assert!(!is_stray(word.as_ref()), "{word}");
+        }
     }
 }

@@ -33,7 +33,7 @@ impl Inputs {
             let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
             Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
         })?;
-        check_apart(&arguments.output, &scene, arguments)?;
+        check_apart(&arguments.output, &scene, &arguments.files())?;
         let state =
             arguments.state.as_deref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
         let edits = state.then(&edits(arguments, &scene)?);

@@ -37,13 +37,18 @@ use failure::Failure;
 
 fn main() -> ExitCode {
     quiet_device_selection();
+    if let Some(word) = std::env::args_os().nth(1).filter(|word| args::is_stray(word)) {
+        let word = word.display();
+        complain(format!("'{word}' is neither a command nor a file that is there; see `velour --help`"));
+        return ExitCode::from(2);
+    }
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
     let done = match arguments.command {
         #[cfg(feature = "window")]
-        None => view::run_or_render_default(),
+        None => view::run_or_render(arguments.scene.as_deref()),
         #[cfg(not(feature = "window"))]
         None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
         #[cfg(feature = "window")]

@@ -7,7 +7,6 @@ use velour::file::check_writable;
 use velour::scene::Scene;
 
 use crate::failure::Failure;
-use crate::picture_args::PictureArgs;
 
 /// Makes `folder` if it is not there, and checks that files can be written to `paths` in it.
 pub fn prepare(folder: &Path, paths: &[PathBuf]) -> Result<(), Failure> {
@@ -35,15 +34,15 @@ fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok()
 }
 
-/// Refuses to write over what the picture is made from: the scene, its buffers and images, and what else flags name.
-pub fn check_apart(output: &Path, scene: &Scene, arguments: &PictureArgs) -> Result<(), Failure> {
-    let is_output = |file: &Path| is_same_file(output, file);
-    let what = match scene.files.iter().position(|file| is_output(file)) {
+/// Refuses to write over what the picture is made from: the scene, its buffers and images, and `others`, each with what it is.
+pub fn check_apart(output: &Path, scene: &Scene, others: &[(&str, &Path)]) -> Result<(), Failure> {
+    let what = match scene.files.iter().position(|file| is_same_file(output, file)) {
         Some(0) => "the scene itself",
         Some(_) => "a file of the scene",
-        None if arguments.sheen_table.as_deref().is_some_and(is_output) => "the table that is read",
-        None if arguments.state.as_deref().is_some_and(is_output) => "the state that is read",
-        None => return Ok(()),
+        None => match others.iter().find(|(_, file)| is_same_file(output, file)) {
+            Some((what, _)) => what,
+            None => return Ok(()),
+        },
     };
     Err(Failure::input(format!("{}: is {what}: choose another place", output.display())))
 }

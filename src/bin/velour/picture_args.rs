@@ -1,6 +1,6 @@
 //! The flags that all ways of rendering share.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use glam::Vec3;
@@ -80,6 +80,13 @@ pub enum Switch {
 }
 
 impl PictureArgs {
+    /// The files beside the scene's that are read, each with what it is.
+    pub fn files(&self) -> Vec<(&'static str, &Path)> {
+        let table = self.sheen_table.as_deref().map(|path| ("the table that is read", path));
+        let state = self.state.as_deref().map(|path| ("the state that is read", path));
+        table.into_iter().chain(state).collect()
+    }
+
     /// What the flags change in every scene; what they say of single things waits for the scene.
     pub fn edits(&self) -> Edits {
         Edits {

@@ -85,7 +85,7 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
     reference::Reference::check_size(arguments.picture.size).map_err(failure)?;
     let inputs = Inputs::load(&arguments.picture, &mut timing)?;
     if let Some(errors) = &arguments.errors {
-        check_apart(errors, &inputs.scene, &arguments.picture)?;
+        check_apart(errors, &inputs.scene, &arguments.picture.files())?;
     }
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
     let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;

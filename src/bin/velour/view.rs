@@ -13,6 +13,7 @@ use velour::viewer::ViewerError;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
+use crate::output::check_apart;
 use crate::{render, state, without_device};
 
 /// The flags of `velour view`.
@@ -26,34 +27,47 @@ pub struct View {
 }
 
 pub fn run(arguments: &View) -> Result<(), Failure> {
-    let scene = match &arguments.scene {
-        Some(path) => gltf::load(path).map_err(Failure::input)?,
-        None => DRAPE.load().map_err(Failure::input)?,
-    };
+    let (name, scene) = load(arguments.scene.as_deref())?;
     let edits = arguments.state.as_ref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
     render::check_real_time(&edits)?;
-    let name = arguments.scene.as_ref().map_or(DRAPE.name.into(), |path| path.display().to_string());
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
     let event_loop = velour::viewer::event_loop().map_err(no_display)?;
     scene.notices.iter().for_each(complain);
     velour::viewer::run(event_loop, &name, (scene, edits), SheenTable::embedded()).map_err(Failure::device)
 }
 
-/// The viewer on the default scene; without a display, or a device that draws on it, the picture that it would show.
-pub fn run_or_render_default() -> Result<(), Failure> {
-    let scene = DRAPE.load().map_err(Failure::input)?;
+/// The viewer; without a display, or a device that draws on it, the picture that it would show.
+pub fn run_or_render(path: Option<&Path>) -> Result<(), Failure> {
+    let (name, scene) = load(path)?;
+    let notices = scene.notices.clone();
     let shown = velour::viewer::event_loop().and_then(|event_loop| {
-        velour::viewer::run(event_loop, DRAPE.name, (scene, Edits::default()), SheenTable::embedded())
+        notices.iter().for_each(complain);
+        velour::viewer::run(event_loop, &name, (scene, Edits::default()), SheenTable::embedded())
     });
     match shown {
         Err(why @ (ViewerError::NoDisplay(_) | ViewerError::Device(_))) => {
             let output = Path::new("velour.png");
-            render_default(&DRAPE.load().map_err(Failure::input)?, output)?;
-            say(format!("{why}: the default scene is rendered to {}", output.display()));
+            // The viewer has kept its own.
+            let (_, scene) = load(path)?;
+            check_apart(output, &scene, &[])?;
+            render_default(&scene, output)?;
+            if matches!(why, ViewerError::NoDisplay(_)) {
+                notices.iter().for_each(complain);
+            }
+            let what = if path.is_some() { &name } else { "the default scene" };
+            say(format!("{why}: {what} is rendered to {}", output.display()));
             Ok(())
         }
         shown => shown.map_err(Failure::device),
     }
+}
+
+/// The scene in a file, or the default one, and its name.
+fn load(path: Option<&Path>) -> Result<(String, Scene), Failure> {
+    let Some(path) = path else {
+        return Ok((DRAPE.name.to_owned(), DRAPE.load().map_err(Failure::input)?));
+    };
+    Ok((path.display().to_string(), gltf::load(path).map_err(Failure::input)?))
 }
 
 /// What `velour render` makes of the scene when no flag is given.

@@ -1,0 +1,196 @@
+//! What the window has to show, and whether it shows that already.
+
+use egui::epaint::ClippedShape;
+use egui::epaint::textures::TexturesDelta;
+use egui::{FullOutput, Rect};
+
+use super::change::Change;
+use super::layout::Layout;
+
+/// The joint outcome of the passes over the user interface. They come more often than frames: egui asks for two or three
+/// after each move of the pointer, few of which change anything.
+pub struct Screen {
+    /// What egui paints, as of the last pass.
+    pub shapes: Vec<ClippedShape>,
+    pub pixels_per_point: f32,
+    /// Where the picture is, in points.
+    pub picture: Rect,
+    /// What has changed in the picture since it was shown.
+    pub change: Change,
+    /// Whether what is shown differs from all this.
+    stale: bool,
+}
+
+impl Screen {
+    /// Nothing has been shown yet.
+    pub fn new() -> Self {
+        Self { shapes: Vec::new(), pixels_per_point: 1.0, picture: Rect::ZERO, change: Change::Scene, stale: true }
+    }
+
+    /// Takes what a pass has led to; returns the changes of egui's textures, which are due at once.
+    pub fn take(&mut self, layout: &Layout, output: FullOutput) -> TexturesDelta {
+        let FullOutput { shapes, pixels_per_point, textures_delta, .. } = output;
+        self.stale |= layout.change > Change::None
+            || layout.picture != self.picture
+            || pixels_per_point != self.pixels_per_point
+            || !textures_delta.set.is_empty()
+            || shapes != self.shapes;
+        self.change = self.change.max(layout.change);
+        (self.picture, self.shapes, self.pixels_per_point) = (layout.picture, shapes, pixels_per_point);
+        textures_delta
+    }
+
+    /// What is shown is lost, or of the wrong size.
+    pub fn lose(&mut self) {
+        self.stale = true;
+    }
+
+    /// Whether a frame is due.
+    pub fn is_stale(&self) -> bool {
+        self.stale
+    }
+
+    /// A frame has been presented, and nothing has been taken since it was drawn.
+    pub fn presented(&mut self) {
+        (self.change, self.stale) = (Change::None, false);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout;
+    use super::super::state::State;
+    use super::*;
+    use crate::scene::Edits;
+    use crate::scene::assets::DRAPE;
+    use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, ViewportId, pos2, vec2};
+
+    /// A window of 1280 by 720 points without the window.
+    struct Desk {
+        context: egui::Context,
+        state: State,
+        screen: Screen,
+        time: f64,
+    }
+
+    impl Desk {
+        /// After the first frames.
+        fn settled() -> Self {
+            let state = State::new(DRAPE.name, DRAPE.load().unwrap(), Edits::default());
+            let mut desk = Self { context: egui::Context::default(), state, screen: Screen::new(), time: 0.0 };
+            assert!(desk.screen.is_stale());
+            desk.settle(vec![]);
+            desk.screen.presented();
+            desk
+        }
+
+        /// A pass after these events; whether egui wants another one at once.
+        fn pass(&mut self, events: Vec<Event>) -> bool {
+            self.time += 0.02;
+            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 720.0)));
+            let input = RawInput { screen_rect, events, time: Some(self.time), ..RawInput::default() };
+            let mut layout = Layout::default();
+            let output = self.context.run_ui(input, |ui| layout = layout::show(ui, &mut self.state));
+            let is_due = output.viewport_output[&ViewportId::ROOT].repaint_delay.is_zero();
+            self.screen.take(&layout, output).clear();
+            is_due
+        }
+
+        /// Passes until egui has enough; how many.
+        fn settle(&mut self, events: Vec<Event>) -> usize {
+            let mut is_due = self.pass(events);
+            let mut passes = 1;
+            while is_due {
+                is_due = self.pass(vec![]);
+                passes += 1;
+                assert!(passes < 100, "egui never rests");
+            }
+            passes
+        }
+
+        fn hover(&mut self, x: f32, y: f32) -> usize {
+            self.settle(vec![Event::PointerMoved(pos2(x, y))])
+        }
+
+        fn click(&mut self, x: f32, y: f32) {
+            for pressed in [true, false] {
+                let (pos, button, modifiers) = (pos2(x, y), PointerButton::Primary, Modifiers::NONE);
+                self.settle(vec![Event::PointerMoved(pos), Event::PointerButton { pos, button, pressed, modifiers }]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pointer_that_moves_over_the_picture_asks_for_no_frame() {
+        let mut desk = Desk::settled();
+        desk.hover(100.0, 100.0);
+        desk.screen.presented();
+        let passes: usize = (0..20).map(|step| desk.hover(120.0 + 30.0 * step as f32, 200.0)).sum();
+        // egui's own count of frames, which were all drawn once.
+        assert!(passes >= 40, "{passes}");
+        assert!(!desk.screen.is_stale());
+    }
+
+    #[test]
+    fn a_button_under_the_pointer_asks_for_one_frame_and_not_for_the_scene() {
+        let mut desk = Desk::settled();
+        let mut frames = 0;
+        for y in (0..700).step_by(4) {
+            desk.hover(1160.0, y as f32);
+            if desk.screen.is_stale() {
+                frames += 1;
+                assert_eq!(desk.screen.change, Change::None);
+                desk.screen.presented();
+                desk.hover(1160.0, y as f32);
+                assert!(!desk.screen.is_stale(), "at {y}");
+            }
+        }
+        assert!(frames > 5, "{frames} things that light up");
+    }
+
+    #[test]
+    fn a_colour_that_is_looked_at_is_not_changed() {
+        let mut desk = Desk::settled();
+        let mut opened = 0;
+        // Where the buttons are is egui's business: whatever opens something is tried.
+        for (x, y) in (0..44).flat_map(|row| [1090, 1250].map(|x| (x as f32, 16.0 * row as f32))) {
+            desk.click(x, y);
+            let is_open = egui::Popup::is_any_open(&desk.context);
+            opened += usize::from(is_open);
+            if is_open {
+                desk.hover(640.0, 300.0);
+                assert_eq!(desk.screen.change, Change::None, "at {x}, {y}");
+            }
+            egui::Popup::close_all(&desk.context);
+            desk.state.reset();
+            desk.settle(vec![]);
+            desk.screen.presented();
+        }
+        assert!(opened > 2, "{opened} popups");
+    }
+
+    #[test]
+    fn what_is_lost_is_shown_again() {
+        let mut desk = Desk::settled();
+        desk.screen.lose();
+        assert!(desk.screen.is_stale());
+        desk.settle(vec![]);
+        assert!(desk.screen.is_stale());
+        desk.screen.presented();
+        assert!(!desk.screen.is_stale());
+    }
+
+    #[test]
+    fn changes_add_up_until_they_are_shown() {
+        let mut screen = Screen::new();
+        screen.presented();
+        for change in [Change::Shown, Change::Scene, Change::Drawn, Change::None] {
+            let layout = Layout { change, ..Layout::default() };
+            screen.take(&layout, FullOutput { pixels_per_point: 1.0, ..FullOutput::default() }).clear();
+            assert!(screen.is_stale());
+        }
+        assert_eq!(screen.change, Change::Scene);
+        screen.presented();
+        assert_eq!((screen.change, screen.is_stale()), (Change::None, false));
+    }
+}
