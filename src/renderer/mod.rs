@@ -19,6 +19,7 @@ mod surfaces;
 mod tables;
 mod targets;
 mod textures;
+mod tracked_buffer;
 mod view;
 
 pub use device::{DeviceError, Gpu};
@@ -138,7 +139,7 @@ impl Renderer {
     /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the
     /// pixel `origin` on. Other pixels of the output become black.
     pub fn show(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         (output, origin): (&wgpu::TextureView, [u32; 2]),
