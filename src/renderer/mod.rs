@@ -3,6 +3,8 @@
 //! A frame goes through two passes. The first draws every surface's radiance, lit by the polygon lights in closed form,
 //! and exposed, into floating-point targets; the second shows it (tone curve, sRGB) or measures it (plain linear radiance).
 
+#[cfg(test)]
+mod branches;
 pub mod device;
 mod display;
 mod draws;
