@@ -12,7 +12,7 @@ use wgpu::naga::{AddressSpace, Block, Expression, Function, Handle, Module, Span
 use super::display::DISPLAY_WGSL;
 use super::shader::SURFACES_WGSL;
 
-/// What something depends on, beside what comes before it here.
+/// What something depends on: this, and maybe what stands before it here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Origin {
     /// Literals and `override` constants.
@@ -67,68 +67,68 @@ impl Value {
 fn variants_by_uniform(source: &str) -> Vec<String> {
     let parsed = wgsl::parse_str(source);
     let module = parsed.unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-    let mut search = Search { source, module: &module, returned: HashMap::new(), found: BTreeSet::new() };
+    let mut search = Search { source, module: &module, outcomes: HashMap::new() };
+    let mut found = BTreeSet::new();
     for entry in &module.entry_points {
         let arguments = vec![Value::of(Origin::Data); entry.function.arguments.len()];
-        search.run(&entry.name, &entry.function, arguments);
+        found.append(&mut search.run(&entry.name, &entry.function, arguments).found);
     }
-    search.found.into_iter().collect()
+    found.into_iter().collect()
 }
 
-/// A module and what has been found in it.
-struct Search<'a> {
-    source: &'a str,
-    module: &'a Module,
-    /// What functions return, by their arguments.
-    returned: HashMap<(Handle<Function>, Vec<Value>), Value>,
+/// What comes of a function.
+#[derive(Clone, Default)]
+struct Outcome {
+    returned: Value,
+    /// Its branches that depend on uniforms alone, and those of what it calls.
     found: BTreeSet<String>,
 }
 
+/// A module, and what comes of its functions by their arguments.
+struct Search<'a> {
+    source: &'a str,
+    module: &'a Module,
+    outcomes: HashMap<(Handle<Function>, Vec<Value>), Outcome>,
+}
+
 impl Search<'_> {
-    /// What the function returns for these arguments.
-    fn call(&mut self, callee: Handle<Function>, arguments: Vec<Value>) -> Value {
+    fn call(&mut self, callee: Handle<Function>, arguments: Vec<Value>) -> Outcome {
         let key = (callee, arguments);
-        if let Some(returned) = self.returned.get(&key) {
-            return returned.clone();
+        if let Some(outcome) = self.outcomes.get(&key) {
+            return outcome.clone();
         }
         let function = &self.module.functions[callee];
-        let returned = self.run(function.name.as_deref().unwrap_or_default(), function, key.1.clone());
-        self.returned.insert(key, returned.clone());
-        returned
+        let outcome = self.run(function.name.as_deref().unwrap_or_default(), function, key.1.clone());
+        self.outcomes.insert(key, outcome.clone());
+        outcome
     }
 
-    /// The same, with what is found on the way.
-    fn run(&mut self, name: &str, function: &Function, arguments: Vec<Value>) -> Value {
+    fn run(&mut self, name: &str, function: &Function, arguments: Vec<Value>) -> Outcome {
         let mut run = Run {
+            name,
             function,
             arguments,
             values: Vec::new(),
             variables: vec![Value::default(); function.local_variables.len()],
             results: HashMap::new(),
-            returned: Value::default(),
-            branches: Vec::new(),
+            outcome: Outcome::default(),
         };
-        // Variables and results only gain origins from round to round, until none gains any.
+        // Variables and results only gain origins from round to round. What is found in the last round, where none gains any, counts.
         loop {
             let before = (run.variables.clone(), run.results.clone());
-            run.branches.clear();
-            run.evaluate(self.module);
+            run.outcome = Outcome::default();
+            run.evaluate(self);
             run.walk(self, &function.body, Origin::Constants);
             if (&run.variables, &run.results) == (&before.0, &before.1) {
-                break;
+                return run.outcome;
             }
         }
-        for branch in run.branches {
-            let rest = branch.to_range().map_or("", |range| &self.source[range.start..]);
-            let text = rest.split(['{', ';']).next().unwrap_or_default();
-            self.found.insert(format!("{name}: {}", text.trim()));
-        }
-        run.returned
     }
 }
 
 /// A function as it is run with some arguments.
 struct Run<'a> {
+    name: &'a str,
     function: &'a Function,
     arguments: Vec<Value>,
     /// Of all expressions; pointers have the value of what they point to.
@@ -137,9 +137,7 @@ struct Run<'a> {
     variables: Vec<Value>,
     /// What calls returned.
     results: HashMap<Handle<Expression>, Value>,
-    returned: Value,
-    /// Places of branches that depend on uniforms alone.
-    branches: Vec<Span>,
+    outcome: Outcome,
 }
 
 impl Run<'_> {
@@ -152,15 +150,14 @@ impl Run<'_> {
     }
 
     /// Operands stand before what they are operands of.
-    fn evaluate(&mut self, module: &Module) {
+    fn evaluate(&mut self, search: &Search) {
         self.values.clear();
         for (handle, expression) in self.function.expressions.iter() {
-            self.values.push(self.value_of(module, handle, expression));
+            self.values.push(self.value_of(search.module, handle, expression));
             if let Expression::Select { condition, accept, reject } = *expression
-                && self.origin(condition) == Origin::Uniforms
                 && (self.calls(accept) || self.calls(reject))
             {
-                self.branches.push(self.function.expressions.get_span(handle));
+                self.branch(search, condition, self.function.expressions.get_span(handle));
             }
         }
     }
@@ -206,14 +203,14 @@ impl Run<'_> {
                 Statement::Block(inner) => self.walk(search, inner, under),
                 Statement::If { condition, accept, reject } => {
                     if !is_bound_of_a_loop(accept, reject) {
-                        self.branch(*condition, *span);
+                        self.branch(search, *condition, *span);
                     }
                     let under = under.max(self.origin(*condition));
                     self.walk(search, accept, under);
                     self.walk(search, reject, under);
                 }
                 Statement::Switch { selector, cases } => {
-                    self.branch(*selector, *span);
+                    self.branch(search, *selector, *span);
                     let under = under.max(self.origin(*selector));
                     cases.iter().for_each(|case| self.walk(search, &case.body, under));
                 }
@@ -229,23 +226,26 @@ impl Run<'_> {
                 }
                 Statement::Return { value } => {
                     let value = value.map(|value| self.value(value).clone()).unwrap_or_default();
-                    self.returned.join(&[], &value);
-                    self.returned.add(&[], under);
+                    self.outcome.returned.join(&[], &value);
+                    self.outcome.returned.add(&[], under);
                 }
                 Statement::Call { function, arguments, result } => {
                     assert!(!arguments.iter().any(|at| self.is_place(*at)), "a variable's place is handed on");
                     let arguments = arguments.iter().map(|argument| self.value(*argument).clone()).collect();
-                    let returned = search.call(*function, arguments);
-                    self.results.extend(result.map(|result| (result, returned)));
+                    let mut outcome = search.call(*function, arguments);
+                    self.outcome.found.append(&mut outcome.found);
+                    self.results.extend(result.map(|result| (result, outcome.returned)));
                 }
                 _ => {}
             }
         }
     }
 
-    fn branch(&mut self, condition: Handle<Expression>, place: Span) {
+    fn branch(&mut self, search: &Search, condition: Handle<Expression>, place: Span) {
         if self.origin(condition) == Origin::Uniforms {
-            self.branches.push(place);
+            let rest = place.to_range().map_or("", |range| &search.source[range.start..]);
+            let text = rest.split(['{', ';']).next().unwrap_or_default();
+            self.outcome.found.insert(format!("{}: {}", self.name, text.trim()));
         }
     }
 
@@ -373,6 +373,7 @@ fn data_and_constants_may_decide() {
         "y = select(plain(x), rich(x), x > frame.weight);",
         "for (var i = 0u; i < frame.count; i++) { y += rich(x); if i + 1u == frame.count { y += x; } }",
         "var i = 0u; while i < frame.count { y += rich(x); i++; }",
+        "var m = frame.model; for (var i = 0u; i < 4u; i++) { y += shaded(Surface(x, m)); m = u32(y); }",
         "var rest = frame.weight; if x > 0.0 { rest = 0.0; } if rest > 0.0 { y = rich(x); }",
     ] {
         assert_eq!(in_a_pass(statements), [""; 0], "{statements}");

@@ -5,7 +5,7 @@
 
 mod stage;
 
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use glam::{Mat4, Vec3};
 use stage::Stage;
@@ -49,7 +49,7 @@ fn level(mut frame: impl FnMut(usize)) -> Result<(), String> {
 /// Whatever a pipeline drew first: some drivers decide then whether they compile anew for each value of a uniform.
 #[test]
 fn frames_take_no_memory() {
-    let _alone = ALONE.lock().unwrap();
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let gpu = pollster::block_on(device::open_offscreen(None)).expect("this test needs a device");
     for samples in [1, 4] {
         for tone in TONE_CURVES {
@@ -87,7 +87,7 @@ fn frames_take_no_memory() {
 
 #[test]
 fn what_takes_memory_is_found() {
-    let _alone = ALONE.lock().unwrap();
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     assert_eq!(level(|_| ()), Ok(()));
     assert!(level(|_| _ = std::hint::black_box(vec![1_u8; 1 << 20].leak())).is_err());
 }
