@@ -1,12 +1,13 @@
 // The second pass: a frame's radiance, multisampled or not, to what is shown (tone curve, sRGB) or measured
 // (the plain mean of a pixel's samples).
 
+// What a pipeline shows with. 0: clamped; 1: Khronos PBR Neutral; 2: AgX.
+override DISPLAY_TONE_CURVE: u32 = 0;
+
 struct DisplayUniforms {
-    // 0: clamped; 1: Khronos PBR Neutral; 2: AgX
-    tone_curve: u32,
-    padding: u32,
     // The pixel of the output that shows the radiance's first.
     origin: vec2u,
+    padding: vec2u,
 }
 
 @group(0) @binding(0) var<uniform> display_uniforms: DisplayUniforms;
@@ -65,13 +66,17 @@ fn display_agx(radiance: vec3f) -> vec3f {
 
 // What an exposed radiance looks like: display-linear, in [0, 1].
 fn display_tone(exposed: vec3f) -> vec3f {
-    if display_uniforms.tone_curve == 1u {
-        return display_neutral(exposed);
+    switch DISPLAY_TONE_CURVE {
+        case 1u: {
+            return display_neutral(exposed);
+        }
+        case 2u: {
+            return display_agx(exposed);
+        }
+        default: {
+            return clamp(exposed, vec3f(0.0), vec3f(1.0));
+        }
     }
-    if display_uniforms.tone_curve == 2u {
-        return display_agx(exposed);
-    }
-    return clamp(exposed, vec3f(0.0), vec3f(1.0));
 }
 
 fn display_srgb(linear: vec3f) -> vec4f {

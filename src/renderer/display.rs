@@ -1,14 +1,18 @@
 //! The second pass: from radiance to what is shown or measured.
 
+use std::collections::HashMap;
+
 use bytemuck::{Pod, Zeroable};
-use wgpu::{BindGroup, BindGroupLayout, CommandEncoder, Device, Queue, RenderPipeline, TextureFormat, TextureView};
+use wgpu::{BindGroup, BindGroupLayout, BufferUsages, CommandEncoder, Device, PipelineLayout, Queue, RenderPipeline};
+use wgpu::{ShaderModule, TextureFormat, TextureView};
 
 use super::targets::{RadianceFormat, Targets};
+use super::tracked_buffer::TrackedBuffer;
 use super::view::Rect;
 use crate::picture::ToneCurve;
 
 /// The pass' WGSL.
-const DISPLAY_WGSL: &str = include_str!("../../shaders/passes/display.wgsl");
+pub(super) const DISPLAY_WGSL: &str = include_str!("../../shaders/passes/display.wgsl");
 
 /// What the radiance is turned into.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,9 +32,8 @@ pub enum Showing {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
-    tone_curve: u32,
-    padding: u32,
     origin: [u32; 2],
+    padding: [u32; 2],
 }
 
 impl Showing {
@@ -41,59 +44,54 @@ impl Showing {
             Self::Measured => 1.0,
         }
     }
+
+    /// `DISPLAY_TONE_CURVE` of `display.wgsl`.
+    fn tone_curve(self) -> u32 {
+        match self {
+            Self::Shown { tone: ToneCurve::None, .. } | Self::Measured => 0,
+            Self::Shown { tone: ToneCurve::Neutral, .. } => 1,
+            Self::Shown { tone: ToneCurve::Agx, .. } => 2,
+        }
+    }
 }
 
 /// Draws a frame's radiance into an output of one format.
 pub struct DisplayPass {
-    pipeline: RenderPipeline,
+    pipelines: Pipelines,
+    /// By their tone curves, each made when it is first asked for.
+    made: HashMap<u32, RenderPipeline>,
     layout: BindGroupLayout,
-    uniforms: wgpu::Buffer,
+    uniforms: TrackedBuffer,
     radiance_binding: u32,
 }
 
 impl DisplayPass {
     /// The pass for `Showing::Measured` where `measured`, else for `Showing::Shown`.
     pub fn new(device: &Device, radiance: RadianceFormat, output: TextureFormat, measured: bool) -> Self {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("display"),
-            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
-        });
         let multisampled = radiance.samples > 1;
-        let entry_point = match (measured, multisampled) {
-            (false, false) => "display_shown_single",
-            (false, true) => "display_shown_multisampled",
-            (true, false) => "display_measured_single",
-            (true, true) => "display_measured_multisampled",
-        };
         let radiance_binding = if multisampled { 2 } else { 1 };
         let layout = bind_group_layout(device, radiance_binding, multisampled);
-        let pipeline = pipeline(device, &shader, &layout, entry_point, output);
-        let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("display uniforms"),
-            size: size_of::<Uniforms>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { pipeline, layout, uniforms, radiance_binding }
+        let pipelines = Pipelines::new(device, &layout, entry_point(measured, multisampled), output);
+        let uniforms = [0; size_of::<Uniforms>()];
+        let uniforms = TrackedBuffer::new(device, "display uniforms", &uniforms, BufferUsages::UNIFORM);
+        Self { pipelines, made: HashMap::new(), layout, uniforms, radiance_binding }
     }
 
     /// Shows the targets' radiance in the rectangle `place` of the output, which is at most of the targets' size. What
     /// lies around it becomes black.
     pub fn encode(
-        &self,
+        &mut self,
         (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
         targets: &Targets,
         (output, place): (&TextureView, Rect),
         showing: Showing,
     ) {
-        let tone_curve = match showing {
-            Showing::Shown { tone: ToneCurve::None, .. } | Showing::Measured => 0,
-            Showing::Shown { tone: ToneCurve::Neutral, .. } => 1,
-            Showing::Shown { tone: ToneCurve::Agx, .. } => 2,
-        };
-        let uniforms = Uniforms { tone_curve, padding: 0, origin: [place.x, place.y] };
-        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms));
+        let uniforms = Uniforms { origin: [place.x, place.y], padding: [0; 2] };
+        self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
+        let bind_group = self.bind_group(device, targets);
+        let tone_curve = showing.tone_curve();
+        let pipeline = self.made.entry(tone_curve).or_insert_with(|| self.pipelines.make(device, tone_curve));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -105,8 +103,8 @@ impl DisplayPass {
             ..Default::default()
         });
         pass.set_scissor_rect(place.x, place.y, place.width, place.height);
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.bind_group(device, targets), &[]);
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &bind_group, &[]);
         pass.draw(0..3, 0..1);
     }
 
@@ -116,7 +114,7 @@ impl DisplayPass {
             label: Some("display"),
             layout: &self.layout,
             entries: &[
-                entry(0, self.uniforms.as_entire_binding()),
+                entry(0, self.uniforms.binding()),
                 entry(self.radiance_binding, wgpu::BindingResource::TextureView(&targets.radiance)),
             ],
         })
@@ -142,39 +140,64 @@ fn bind_group_layout(device: &Device, radiance_binding: u32, multisampled: bool)
     })
 }
 
-fn pipeline(
-    device: &Device,
-    shader: &wgpu::ShaderModule,
-    layout: &BindGroupLayout,
-    entry_point: &str,
+/// Of the fragment shader.
+fn entry_point(measured: bool, multisampled: bool) -> &'static str {
+    match (measured, multisampled) {
+        (false, false) => "display_shown_single",
+        (false, true) => "display_shown_multisampled",
+        (true, false) => "display_measured_single",
+        (true, true) => "display_measured_multisampled",
+    }
+}
+
+/// What all pipelines of the pass have in common.
+struct Pipelines {
+    shader: ShaderModule,
+    layout: PipelineLayout,
+    entry_point: &'static str,
     output: TextureFormat,
-) -> RenderPipeline {
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("display"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("display"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some("display_vertex"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: shader,
-            entry_point: Some(entry_point),
-            compilation_options: Default::default(),
-            targets: &[Some(output.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+}
+
+impl Pipelines {
+    fn new(device: &Device, layout: &BindGroupLayout, entry_point: &'static str, output: TextureFormat) -> Self {
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("display"),
+            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("display"),
+            bind_group_layouts: &[Some(layout)],
+            immediate_size: 0,
+        });
+        Self { shader, layout, entry_point, output }
+    }
+
+    /// The pipeline of a tone curve, as `DISPLAY_TONE_CURVE` counts.
+    fn make(&self, device: &Device, tone_curve: u32) -> RenderPipeline {
+        let constants = [("DISPLAY_TONE_CURVE", f64::from(tone_curve))];
+        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("display"),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.shader,
+                entry_point: Some("display_vertex"),
+                compilation_options: compilation_options.clone(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &self.shader,
+                entry_point: Some(self.entry_point),
+                compilation_options,
+                targets: &[Some(self.output.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
 }
 
 #[cfg(test)]
@@ -184,7 +207,7 @@ mod tests {
 
     #[test]
     fn the_uniforms_stand_as_the_shader_reads_them() {
-        let members = members!(Uniforms { tone_curve, padding, origin });
+        let members = members!(Uniforms { origin, padding });
         assert_eq!(differences(DISPLAY_WGSL, "DisplayUniforms", size_of::<Uniforms>(), members), [""; 0]);
     }
 }

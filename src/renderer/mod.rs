@@ -3,6 +3,8 @@
 //! A frame goes through two passes. The first draws every surface's radiance, lit by the polygon lights in closed form,
 //! and exposed, into floating-point targets; the second shows it (tone curve, sRGB) or measures it (plain linear radiance).
 
+#[cfg(test)]
+mod branches;
 pub mod device;
 mod display;
 mod draws;
@@ -19,6 +21,7 @@ mod surfaces;
 mod tables;
 mod targets;
 mod textures;
+mod tracked_buffer;
 mod view;
 
 pub use device::{DeviceError, Gpu};
@@ -141,7 +144,7 @@ impl Renderer {
     /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the
     /// pixel `origin` on. Other pixels of the output become black.
     pub fn show(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         (output, origin): (&wgpu::TextureView, [u32; 2]),

@@ -10,6 +10,7 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 use super::draws::{Batch, Draws};
 use super::lights::GpuLights;
 use super::materials::{GpuMaterial, Look, factors};
+use super::tracked_buffer::TrackedBuffer;
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Drawn, Mesh};
 
@@ -28,13 +29,13 @@ pub(super) struct MeshBuffers {
 pub(super) struct Resident {
     pub meshes: Vec<MeshBuffers>,
     mesh_bounds: Vec<Bounds>,
-    pub instances: Buffer,
-    pub materials: Buffer,
-    pub counts: Buffer,
-    pub polygons: Buffer,
-    pub light_vertices: Buffer,
-    pub punctual: Buffer,
-    pub light_points: Buffer,
+    pub instances: TrackedBuffer,
+    pub materials: TrackedBuffer,
+    pub counts: TrackedBuffer,
+    pub polygons: TrackedBuffer,
+    pub light_vertices: TrackedBuffer,
+    pub punctual: TrackedBuffer,
+    pub light_points: TrackedBuffer,
     /// What stands in for attributes that a mesh lacks: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
@@ -49,25 +50,27 @@ impl Resident {
         let Gpu { device, queue, .. } = gpu;
         let mesh_bounds: Vec<Bounds> = scene.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
         let contents = Contents::new(drawn, &mesh_bounds);
-        let limit = device.limits().max_storage_buffer_binding_size;
-        let storage = |(label, bytes): (&'static str, &[u8])| {
-            buffer(device, label, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST, limit)
-        };
+        let stored = |(name, bytes)| storage(device, name, bytes);
         let material_layout = textures::bind_group_layout(device);
         let material_groups = textures::bind_groups((device, queue), &material_layout, scene);
-        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let counts = bytemuck::bytes_of(&contents.lights.counts);
         let constants = [Vec4::ZERO, Vec4::ONE];
+        let constants = BufferInitDescriptor {
+            label: Some("constants"),
+            contents: bytemuck::cast_slice(&constants),
+            usage: BufferUsages::VERTEX,
+        };
         let [instances, materials, polygons, light_vertices, punctual, light_points] = contents.stored();
         Ok(Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
-            instances: storage(instances)?,
-            materials: storage(materials)?,
-            counts: buffer(device, "lights", bytemuck::bytes_of(&contents.lights.counts), uniform, limit)?,
-            polygons: storage(polygons)?,
-            light_vertices: storage(light_vertices)?,
-            punctual: storage(punctual)?,
-            light_points: storage(light_points)?,
-            constants: buffer(device, "constants", bytemuck::cast_slice(&constants), BufferUsages::VERTEX, limit)?,
+            instances: stored(instances)?,
+            materials: stored(materials)?,
+            counts: TrackedBuffer::new(device, "lights", counts, BufferUsages::UNIFORM),
+            polygons: stored(polygons)?,
+            light_vertices: stored(light_vertices)?,
+            punctual: stored(punctual)?,
+            light_points: stored(light_points)?,
+            constants: device.create_buffer_init(&constants),
             material_layout,
             material_groups,
             draws: contents.draws,
@@ -79,8 +82,7 @@ impl Resident {
     /// happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
         let contents = Contents::new(drawn, &self.mesh_bounds);
-        let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        gpu.queue.write_buffer(&self.counts, 0, bytemuck::bytes_of(&contents.lights.counts));
+        self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));
         let mut grown = false;
         let buffers = [
             &mut self.instances,
@@ -90,12 +92,11 @@ impl Resident {
             &mut self.punctual,
             &mut self.light_points,
         ];
-        for (buffer_of, (label, bytes)) in buffers.into_iter().zip(contents.stored()) {
-            if bytes.len() as u64 <= buffer_of.size() {
-                gpu.queue.write_buffer(buffer_of, 0, bytes);
+        for (buffer, (name, bytes)) in buffers.into_iter().zip(contents.stored()) {
+            if bytes.len() as u64 <= buffer.size() {
+                buffer.write(&gpu.queue, bytes);
             } else {
-                let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-                *buffer_of = buffer(&gpu.device, label, bytes, usage, limit)?;
+                *buffer = storage(&gpu.device, name, bytes)?;
                 grown = true;
             }
         }
@@ -162,7 +163,7 @@ fn mesh_buffers(gpu: &Gpu, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
     })
 }
 
-/// A buffer with these contents. An empty buffer could not be bound: it is given 512 bytes of zeros.
+/// A buffer with these contents, of at most `limit` bytes.
 fn buffer(
     device: &Device,
     name: &str,
@@ -170,10 +171,21 @@ fn buffer(
     usage: BufferUsages,
     limit: u64,
 ) -> Result<Buffer, RenderError> {
+    let contents = bindable(name, contents, limit)?;
+    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(name), contents, usage }))
+}
+
+/// A storage buffer with these contents.
+fn storage(device: &Device, name: &str, contents: &[u8]) -> Result<TrackedBuffer, RenderError> {
+    let contents = bindable(name, contents, device.limits().max_storage_buffer_binding_size)?;
+    Ok(TrackedBuffer::new(device, name, contents, BufferUsages::STORAGE))
+}
+
+/// The contents of a buffer that can be bound: 512 bytes of zeros instead of none. Fails where they pass the limit.
+fn bindable<'a>(name: &str, contents: &'a [u8], limit: u64) -> Result<&'a [u8], RenderError> {
     let bytes = contents.len() as u64;
     if bytes > limit {
         return Err(RenderError::TooLarge { what: name.to_owned(), bytes, limit });
     }
-    let contents = if contents.is_empty() { &[0; 512] } else { contents };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(name), contents, usage }))
+    Ok(if contents.is_empty() { &[0; 512] } else { contents })
 }

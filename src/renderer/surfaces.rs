@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
-use wgpu::{BindGroup, BindGroupLayout, Device, Face, Queue, RenderPass, RenderPipeline, TextureView};
+use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Face, Queue, RenderPass, RenderPipeline, TextureView};
 
 use super::Gpu;
 use super::draws::{Batch, Frustum, Variant};
@@ -15,6 +15,7 @@ use super::resident::{MeshBuffers, Resident};
 use super::shader::SURFACES_WGSL;
 use super::tables;
 use super::targets::{RadianceFormat, Targets};
+use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
 use crate::scene::Settings;
 use crate::table::SheenTable;
@@ -40,7 +41,7 @@ pub struct SurfacesPass {
     layout: BindGroupLayout,
     made: HashMap<(Variant, Option<Face>), RenderPipeline>,
     pipelines: Pipelines,
-    frame: wgpu::Buffer,
+    frame: TrackedBuffer,
     albedos: PriorAlbedos,
     /// The tables of the sheen, of the specular base, and of the albedos of the other sheens.
     tables: [TextureView; 3],
@@ -55,12 +56,8 @@ impl SurfacesPass {
             label: Some("surfaces"),
             source: wgpu::ShaderSource::Wgsl(SURFACES_WGSL.into()),
         });
-        let frame = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("surfaces frame"),
-            size: size_of::<Frame>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let frame = [0; size_of::<Frame>()];
+        let frame = TrackedBuffer::new(device, "surfaces frame", &frame, BufferUsages::UNIFORM);
         let layout = bind_group_layout(device);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surfaces"),
@@ -103,7 +100,7 @@ impl SurfacesPass {
     }
 
     pub(super) fn encode(
-        &self,
+        &mut self,
         queue: &Queue,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
@@ -124,7 +121,7 @@ impl SurfacesPass {
             ambient: settings.ambient,
             gain,
         };
-        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+        self.frame.write(queue, bytemuck::bytes_of(&frame));
         let frustum = Frustum::new(view.clip_from_world, view.eye);
         let calls = calls(resident, &frustum, self.triangles_a_pass);
         // The first pass clears the targets, whatever there is to draw.
@@ -269,7 +266,7 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
 fn bind_group(
     device: &Device,
     layout: &BindGroupLayout,
-    (frame, [sheen, ggx, albedos]): (&wgpu::Buffer, &[TextureView; 3]),
+    (frame, [sheen, ggx, albedos]): (&TrackedBuffer, &[TextureView; 3]),
     resident: &Resident,
 ) -> BindGroup {
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
@@ -277,16 +274,16 @@ fn bind_group(
         label: Some("surfaces"),
         layout,
         entries: &[
-            entry(0, frame.as_entire_binding()),
+            entry(0, frame.binding()),
             entry(1, wgpu::BindingResource::TextureView(sheen)),
             entry(2, wgpu::BindingResource::TextureView(ggx)),
-            entry(3, resident.instances.as_entire_binding()),
-            entry(4, resident.materials.as_entire_binding()),
-            entry(5, resident.counts.as_entire_binding()),
-            entry(6, resident.polygons.as_entire_binding()),
-            entry(7, resident.light_vertices.as_entire_binding()),
-            entry(8, resident.punctual.as_entire_binding()),
-            entry(9, resident.light_points.as_entire_binding()),
+            entry(3, resident.instances.binding()),
+            entry(4, resident.materials.binding()),
+            entry(5, resident.counts.binding()),
+            entry(6, resident.polygons.binding()),
+            entry(7, resident.light_vertices.binding()),
+            entry(8, resident.punctual.binding()),
+            entry(9, resident.light_points.binding()),
             entry(10, wgpu::BindingResource::TextureView(albedos)),
         ],
     })

@@ -1,0 +1,95 @@
+//! Memory does not grow with the frames that are drawn: drivers keep what they compile, so that nothing may be compiled anew for a frame.
+//!
+//! A process of its own, where nobody else takes memory. What it takes is told by Linux.
+#![cfg(target_os = "linux")]
+
+mod stage;
+
+use std::sync::{Mutex, PoisonError};
+
+use glam::Mat4;
+use stage::Stage;
+use velour::picture::ToneCurve;
+use velour::renderer::device;
+use velour::scene::LightEdits;
+
+/// Frames in which the device compiles what it draws, and caches fill.
+const WARM_UP: usize = 20;
+/// Frames after them.
+const FRAMES: usize = 100;
+/// Most that they may add to the memory, in kB a frame: room for an allocator's whims. Measured: none. A tone curve picked by a uniform
+/// takes 380 to 830 kB a frame on Mesa 22.3's lavapipe.
+const MOST: usize = 20;
+
+const TONE_CURVES: [ToneCurve; 3] = [ToneCurve::None, ToneCurve::Neutral, ToneCurve::Agx];
+
+/// Held by the test that runs.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// The memory that this process takes, in kB.
+fn resident() -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("Linux tells it");
+    line.trim().trim_end_matches(" kB").parse().unwrap()
+}
+
+/// Runs frames until they have taken too much memory, or all have run.
+fn level(mut frame: impl FnMut(usize)) -> Result<(), String> {
+    (0..WARM_UP).for_each(&mut frame);
+    let first = resident();
+    for index in 0..FRAMES {
+        frame(WARM_UP + index);
+        let grown = resident().saturating_sub(first);
+        if grown > FRAMES * MOST {
+            return Err(format!("{grown} kB more after {index} frames"));
+        }
+    }
+    Ok(())
+}
+
+/// Whatever a pipeline drew first: some drivers decide then whether they compile anew for each value of a uniform.
+#[test]
+fn frames_take_no_memory() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let gpu = pollster::block_on(device::open_offscreen(None)).expect("this test needs a device");
+    for samples in [1, 4] {
+        for tone in TONE_CURVES {
+            let mut stage = Stage::new(&gpu, samples, tone);
+            let hold = |what: &str, level| {
+                let held: Result<(), String> = level;
+                held.unwrap_or_else(|said| panic!("{what}, {samples} samples, {tone:?} first: {said}"));
+            };
+            stage.draw();
+            hold("the same picture shown again", level(|_| stage.show()));
+            hold("the same view drawn again", level(|_| stage.draw()));
+            let drag = level(|frame| {
+                stage.camera.world_from_camera *= Mat4::from_rotation_z(0.01);
+                if frame % 5 == 0 {
+                    stage.settings.exposure += 0.1;
+                    stage.settings.ambient += 0.01;
+                    stage.settings.lobes.sheen ^= true;
+                }
+                if frame % 7 == 0 {
+                    // There are two lights that shine, or one.
+                    let light = LightEdits { strength: Some((frame % 2) as f32), ..LightEdits::default() };
+                    stage.edits.lights.insert(0, light);
+                    stage.update();
+                }
+                stage.draw();
+            });
+            hold("a drag while settings and lights change", drag);
+            let tones = level(|frame| {
+                stage.settings.tone = TONE_CURVES[frame % 3];
+                stage.show();
+            });
+            hold("one tone curve after another", tones);
+        }
+    }
+}
+
+#[test]
+fn what_takes_memory_is_found() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    assert_eq!(level(|_| ()), Ok(()));
+    assert!(level(|_| _ = std::hint::black_box(vec![1_u8; 1 << 20].leak())).is_err());
+}
