@@ -39,8 +39,6 @@ pub(super) fn finish(gpu: &Gpu) {
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
 }
 
-/// The start of an event loop; none where the environment names no display.
-
 /// Saves a picture in the current folder under the first free name; says where.
 pub(super) fn save(picture: &DisplayImage) -> Result<String, String> {
     // Whoever opened the window from a desktop does not know which folder is the current one.
