@@ -57,7 +57,7 @@ mod tests {
     fn long_lines_are_wrapped() {
         let short = opened(&["no camera".to_owned()]);
         for long in ["a word ".repeat(20), "x".repeat(140), "a\nb\u{7}".repeat(30)] {
-            let [width, height] = opened(&[long.clone()]);
+            let [width, height] = opened(std::slice::from_ref(&long));
             assert!(width <= 250.0, "{width} points wide: {long}");
             assert!(height > short[1] + 20.0, "{height} points high: {long}");
         }

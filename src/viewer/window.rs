@@ -76,7 +76,7 @@ impl App {
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
-        // On which monitor the window appears is the system's choice, where it has a first one, that.
+        // Where the system names no first monitor, the window may appear on any.
         let mut monitors: Vec<MonitorHandle> = event_loop.primary_monitor().into_iter().collect();
         if monitors.is_empty() {
             monitors.extend(event_loop.available_monitors());
