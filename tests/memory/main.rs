@@ -26,22 +26,25 @@ const TONE_CURVES: [ToneCurve; 3] = [ToneCurve::None, ToneCurve::Neutral, ToneCu
 /// Held by the test that runs.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// The memory that this process takes, in kB.
-fn resident() -> usize {
+/// The memory that this process has written to, whether it is held or swapped out, in kB.
+fn taken() -> usize {
     let status = std::fs::read_to_string("/proc/self/status").unwrap();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("Linux tells it");
-    line.trim().trim_end_matches(" kB").parse().unwrap()
+    let of = |name| {
+        let line = status.lines().find_map(|line| line.strip_prefix(name)).expect("Linux tells it");
+        line.trim().trim_end_matches(" kB").parse::<usize>().unwrap()
+    };
+    of("RssAnon:") + of("VmSwap:")
 }
 
 /// Runs frames until they have taken too much memory, or all have run.
 fn level(mut frame: impl FnMut(usize)) -> Result<(), String> {
     (0..WARM_UP).for_each(&mut frame);
-    let first = resident();
+    let first = taken();
     for index in 0..FRAMES {
         frame(WARM_UP + index);
-        let grown = resident().saturating_sub(first);
+        let grown = taken().saturating_sub(first);
         if grown > FRAMES * MOST {
-            return Err(format!("{grown} kB more after {index} frames"));
+            return Err(format!("{grown} kB more after {} frames", index + 1));
         }
     }
     Ok(())
@@ -55,8 +58,7 @@ fn frames_take_no_memory() {
     for samples in [1, 4] {
         for tone in TONE_CURVES {
             let mut stage = Stage::new(&gpu, samples, tone);
-            let hold = |what: &str, level| {
-                let held: Result<(), String> = level;
+            let hold = |what: &str, held: Result<(), String>| {
                 held.unwrap_or_else(|said| panic!("{what}, {samples} samples, {tone:?} first: {said}"));
             };
             stage.draw();
