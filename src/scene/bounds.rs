@@ -1,5 +1,8 @@
 use glam::{Mat4, Vec3};
 
+/// How far from the origin users may put things, metres: what is computed of them stays finite.
+pub const FARTHEST: f32 = 1e12;
+
 /// An axis-aligned box in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {

@@ -36,7 +36,7 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 
-pub use bounds::Bounds;
+pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
 pub use drawn::Drawn;
 pub use edits::{CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select};

@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
-use super::{Camera, Projection};
+use super::{Camera, FARTHEST, Projection};
 
 /// A view that circles a target; y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,8 @@ impl Orbit {
     /// Moves such that the target follows a drag of this many view heights, to the right and down.
     pub fn pan(&mut self, drag: Vec2) {
         let axes = self.axes();
-        self.target += self.view_height() * (drag.y * axes.y_axis - drag.x * axes.x_axis);
+        let target = self.target + self.view_height() * (drag.y * axes.y_axis - drag.x * axes.x_axis);
+        self.target = target.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST));
     }
 
     /// Goes nearer by this factor where it is above 1, or farther where it is below. Panics unless it is above 0.
@@ -79,7 +80,7 @@ impl Orbit {
             Projection::Perspective { .. } => &mut self.distance,
         };
         // Limits within which floats still serve, for scenes of any size.
-        *size = (*size / factor).clamp(1e-9, 1e12);
+        *size = (*size / factor).clamp(1e-9, FARTHEST);
     }
 
     /// Sets the distances between which the view shows something, metres.

@@ -26,9 +26,11 @@ impl Default for Layout {
 /// Lays out the window's content and applies what the user does to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let before = state.edits.clone();
+    let area = ui.available_rect_before_wrap();
     let panel = egui::Panel::right("panel").exact_size(panel::WIDTH).resizable(false);
     let request = panel.show(ui, |ui| panel::show(ui, state)).inner;
-    let picture = ui.available_rect_before_wrap();
+    // egui may make the panel a little narrower than it is meant to be, with its content: the picture stays where it is.
+    let picture = area.with_max_x((area.max.x - panel::WIDTH).max(area.min.x));
     navigate(ui, picture, state);
     Layout { picture, change: Change::between(&before, &state.edits), request }
 }

@@ -5,12 +5,10 @@ use glam::Vec3;
 
 use super::state::State;
 use super::widgets::{Glow, color_button, number_box, short};
+use crate::scene::FARTHEST;
 
 /// Most lights whose sections are open from the start.
 const OPEN: usize = 4;
-
-/// How far from the origin lights may be put, metres: their outlines stay finite.
-const FARTHEST: f32 = 1e10;
 
 /// Most characters of a light's name.
 const NAME_SHOWN: usize = 28;

@@ -125,7 +125,10 @@ fn show_base(ui: &mut Ui, material: &Material, edits: &mut MaterialEdits) {
         ui.label("roughness");
         share_slider(ui, &mut roughness);
     });
-    ui.weak(textured(TextureSlot::MetallicRoughness));
+    let below = textured(TextureSlot::MetallicRoughness);
+    if !below.is_empty() {
+        ui.weak(below);
+    }
     edits.base_color = changed(material.base_color, color);
     edits.metallic = changed(material.metallic, metallic);
     edits.roughness = changed(material.roughness, roughness);

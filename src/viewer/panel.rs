@@ -25,9 +25,9 @@ pub enum Request {
 
 /// Lays the panel out and applies what is changed in it to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
-    let mut request = None;
-    // However narrow its content is, it leaves the picture where it was.
-    ui.set_min_width(ui.available_width());
+    // However long the rest is, this stays in sight.
+    let strip = egui::Panel::bottom("actions").resizable(false).frame(egui::Frame::NONE);
+    let request = strip.show(ui, |ui| actions(ui, state)).inner;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
@@ -36,26 +36,32 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
         material::show(ui, state);
         picture(ui, &mut state.edits);
         lights::show(ui, state);
-        ui.separator();
-        ui.horizontal_wrapped(|ui| {
-            if ui.button("Reset").on_hover_text("Scene, view and settings as they were loaded").clicked() {
-                state.reset();
-            }
-            if ui.button("Save screenshot").clicked() {
-                request = Some(Request::Screenshot);
-            }
-            let about = "What is changed here, in a file: velour view, render and reference take it with --state";
-            if ui.button("Save state").on_hover_text(about).clicked() {
-                request = Some(Request::SaveState);
-            }
-        });
-        if !state.message.is_empty() {
-            ui.label(&state.message);
-        }
-        let milliseconds = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
-        ui.label(milliseconds.unwrap_or_default());
-        ui.weak("drag: turn; right or Shift drag: pan; wheel: zoom");
     });
+    request
+}
+
+/// What is done with the whole, and what became of it.
+fn actions(ui: &mut Ui, state: &mut State) -> Option<Request> {
+    let mut request = None;
+    ui.add_space(4.0);
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Reset").on_hover_text("Scene, view and settings as they were loaded").clicked() {
+            state.reset();
+        }
+        if ui.button("Save screenshot").clicked() {
+            request = Some(Request::Screenshot);
+        }
+        let about = "What is changed here, in a file: velour view, render and reference take it with --state";
+        if ui.button("Save state").on_hover_text(about).clicked() {
+            request = Some(Request::SaveState);
+        }
+    });
+    if !state.message.is_empty() {
+        ui.label(&state.message);
+    }
+    let milliseconds = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
+    ui.label(milliseconds.unwrap_or_default());
+    ui.weak("drag: turn; right or Shift drag: pan; wheel: zoom");
     request
 }
 

@@ -35,7 +35,10 @@ pub fn number_box(ui: &mut Ui, value: &mut f32, range: RangeInclusive<f32>, spee
     let before = *value;
     let number = egui::DragValue::new(value).range(range).clamp_existing_to_range(false).speed(speed);
     let number = number.custom_formatter(|value, _| written(value));
-    ui.add(number.custom_parser(move |text| typed(text, before.into()))).on_hover_text(before.to_string());
+    let response = ui.add(number.custom_parser(move |text| typed(text, before.into())));
+    if !response.has_focus() {
+        response.on_hover_text(before.to_string());
+    }
 }
 
 /// A number as its box shows it.

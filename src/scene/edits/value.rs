@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::picture::ToneCurve;
-use crate::scene::{Layering, Lobes, RoughnessMap, SheenModel};
+use crate::scene::{FARTHEST, Layering, Lobes, RoughnessMap, SheenModel};
 
 /// A value as flags and files write it.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,9 +55,10 @@ impl Value {
         self.number().filter(|number| *number >= 0.0).ok_or_else(|| "give a finite number from 0 up".to_owned())
     }
 
-    /// A finite number above 0.
-    pub fn positive(&self) -> Checked<f32> {
-        self.number().filter(|number| *number > 0.0).ok_or_else(|| "give a finite number above 0".to_owned())
+    /// A length: metres above 0, up to [`FARTHEST`].
+    pub fn length(&self) -> Checked<f32> {
+        let length = self.number().filter(|number| *number > 0.0 && *number <= FARTHEST);
+        length.ok_or_else(|| format!("give a number above 0, up to {FARTHEST:e}"))
     }
 
     /// A number above 0 that may be infinite.
@@ -68,14 +69,15 @@ impl Value {
         }
     }
 
-    /// Any finite number: an angle in radians, or metres.
+    /// Any finite number: an angle in radians.
     pub fn finite(&self) -> Checked<f32> {
         self.number().ok_or_else(|| "give a finite number".to_owned())
     }
 
-    /// A point: three finite numbers.
+    /// A point: three coordinates in metres, up to [`FARTHEST`] either way.
     pub fn point(&self) -> Checked<Vec3> {
-        self.triple().ok_or_else(|| "give three finite numbers, say 0,1.5,-2".to_owned())
+        let point = self.triple().filter(|point| point.abs().max_element() <= FARTHEST);
+        point.ok_or_else(|| format!("give three numbers in [-{FARTHEST:e},{FARTHEST:e}], say 0,1.5,-2"))
     }
 
     /// An exposure value. Past 100 stops either way a float has nothing left to show.
@@ -258,6 +260,12 @@ mod tests {
         for text in ["", "shadow", "sheen,", "all"] {
             assert!(flag(text).lobes().is_err(), "{text}");
         }
-        assert!(flag("0").positive().is_err() && flag("-1").strength().is_err() && flag("nan").far().is_err());
+        assert!(
+            flag("0").length().is_err()
+                && flag("1e13").length().is_err()
+                && flag("0,0,1e13").point().is_err()
+                && flag("-1").strength().is_err()
+                && flag("nan").far().is_err()
+        );
     }
 }
