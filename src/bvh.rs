@@ -26,6 +26,14 @@ const BEHIND: f64 = 1e-5;
 /// How far outside an edge a ray still meets a triangle, in weights of the corners, so that neighbours leave no gap.
 const EDGE: f64 = 1e-12;
 
+/// Three numbers in [0, 1), other ones for each index. Where one thing is far from all others these are so near to each
+/// other that their boxes are all alike; the tree pairs boxes by their areas, and of many that are equal it pairs but
+/// two at a time.
+fn jitter(index: usize) -> Vec3A {
+    let bits = [0, 1, 2].map(|axis| (index as u32).wrapping_mul(3).wrapping_add(axis).wrapping_mul(0x9e37_79b9));
+    Vec3A::from_array(bits.map(|bits| (bits >> 8) as f32 / (1 << 24) as f32))
+}
+
 /// A half line.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -104,10 +112,13 @@ impl<P: Primitive> Bvh<P> {
             (0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low).max_element().max(f64::MIN_POSITIVE.sqrt()) / SPAN)
         };
         let scaled = |corner: DVec3| Vec3A::from(((corner - center) / scale).as_vec3());
-        let boxes: Vec<Boxed> = bounded
-            .iter()
-            .map(|(_, [low, high])| Boxed(Aabb::new(scaled(*low) - PADDING, scaled(*high) + PADDING)))
-            .collect();
+        let padded = |index: usize, [low, high]: [DVec3; 2]| {
+            let (low, high) = (scaled(low), scaled(high));
+            let is_tiny = (high - low).max_element() < PADDING;
+            let padding = if is_tiny { PADDING * (1.0 + jitter(index)) } else { Vec3A::splat(PADDING) };
+            Boxed(Aabb::new(low - padding, high + padding))
+        };
+        let boxes: Vec<Boxed> = bounded.iter().enumerate().map(|(index, (_, bounds))| padded(index, *bounds)).collect();
         let tree = build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
         let mut primitives: Vec<Option<P>> = bounded.into_iter().map(|(primitive, _)| Some(primitive)).collect();
         let ordered = tree.primitive_indices.iter().filter_map(|&index| primitives[index as usize].take());
@@ -374,6 +385,24 @@ mod tests {
             };
             let distances: Vec<f64> = corners.into_iter().filter_map(met).collect();
             assert!(distances.iter().any(|distance| (distance - 3.0).abs() < 1e-9), "{corners:?} {ray:?}");
+        }
+    }
+
+    /// All but one thing are so near to each other that their boxes are alike: the time that the tree takes must not grow
+    /// with the square of their number, which took minutes here.
+    #[test]
+    fn one_thing_may_be_far_from_very_many() {
+        let mut balls = balls(60_000, DVec3::ZERO, 1.0);
+        balls.push(Ball { center: DVec3::splat(1e10), radius: 0.5 });
+        let start = std::time::Instant::now();
+        let bvh = Bvh::new(balls);
+        assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+        for direction in [DVec3::X, DVec3::NEG_Y, DVec3::ONE.normalize()] {
+            let ray = Ray { origin: DVec3::ZERO - 5.0 * direction, direction };
+            let expected = bvh.primitives().iter().filter_map(|ball| ball.meet(&ray)).map(|(distance, ())| distance);
+            let expected = expected.filter(|distance| *distance > 0.0).min_by(f64::total_cmp);
+            let found = bvh.nearest(&ray, [0.0, 1e11], |_| true).map(|meeting| meeting.distance);
+            assert_eq!(found, expected);
         }
     }
 }

@@ -16,11 +16,7 @@ impl ToneCurve {
 
     /// The name that flags and files give it.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Neutral => "neutral",
-            Self::Agx => "agx",
-        }
+        Self::NAMES.iter().find(|(_, curve)| *curve == self).map_or("", |(name, _)| name)
     }
 
     /// Takes linear Rec. 709 in [0, infinity) to linear Rec. 709 in [0, 1].

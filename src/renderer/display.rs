@@ -77,6 +77,11 @@ impl DisplayPass {
         Self { pipelines, made: HashMap::new(), layout, uniforms, radiance_binding }
     }
 
+    /// How many pipelines there are.
+    pub fn made(&self) -> usize {
+        self.made.len()
+    }
+
     /// Shows the targets' radiance in the rectangle `place` of the output, which is at most of the targets' size. What
     /// lies around it becomes black.
     pub fn encode(

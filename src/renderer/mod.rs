@@ -136,9 +136,9 @@ impl Renderer {
         self.targets = Some(targets);
     }
 
-    /// How many pipelines and targets `draw` has drawn with so far: where it grows, a frame took longer than others will.
+    /// How many pipelines and targets there have been so far: where it grows, a frame took longer than others will.
     pub fn made(&self) -> usize {
-        self.surfaces.made() + self.targets_made
+        self.surfaces.made() + self.display.made() + self.targets_made
     }
 
     /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the

@@ -1,7 +1,8 @@
 use glam::{Mat4, Vec3};
 
-/// How far from the origin users may put things, metres: what is computed of them stays finite.
-pub const FARTHEST: f32 = 1e12;
+/// Metres from the origin within which things must stand: farther than the Moon, and near enough for the cube of any
+/// distance, with lights set up around the things, to fit in 32-bit floats.
+pub const FARTHEST: f32 = 1e10;
 
 /// An axis-aligned box in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -79,18 +79,20 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// A material's own sheen, as long as it can be seen: of a weight, and not black.
-fn visible(material: &Material) -> Option<Sheen> {
-    material.sheen.filter(|sheen| sheen.weight > 0.0 && sheen.color != Vec3::ZERO)
+/// Whether a sheen can be seen. Black fibres scatter nothing; they still hide the base under a rule by which their
+/// colour does not count.
+fn is_seen(sheen: &Sheen) -> bool {
+    sheen.weight > 0.0 && (sheen.color != Vec3::ZERO || sheen.layering == Layering::OpenPbr)
 }
 
 fn materials(scene: &Scene, edits: &Edits) -> Vec<Material> {
-    let own = |index: usize| edits.materials.get(&index).copied().unwrap_or_default();
-    let has_sheen = |index: usize| visible(&scene.materials[index]).is_some() || own(index).gives_sheen();
-    let none_has = !(0..scene.materials.len()).any(has_sheen);
+    let is_loaded = |material: &Material| material.sheen.as_ref().is_some_and(is_seen);
+    // What the file has decides: a sheen that one material is given takes none from the others.
+    let none_has = !scene.materials.iter().any(is_loaded);
     let edited = |(index, material): (usize, &Material)| {
+        let own = edits.materials.get(&index).copied().unwrap_or_default();
         let mut changes = edits.of_material(index);
-        if !has_sheen(index) && !none_has {
+        if !is_loaded(material) && !own.gives_sheen() && !none_has {
             // What is said of the sheens of all materials is none of this one's business.
             (changes.alpha, changes.sheen_color) = (None, None);
         }
@@ -103,7 +105,8 @@ fn edited(mut material: Material, edits: &MaterialEdits) -> Material {
     material.base_color = edits.base_color.unwrap_or(material.base_color);
     material.metallic = edits.metallic.unwrap_or(material.metallic);
     material.roughness = edits.roughness.unwrap_or(material.roughness);
-    if visible(&material).is_none() && edits.gives_sheen() {
+    let layered = material.sheen.map(|sheen| Sheen { layering: edits.layering.unwrap_or(sheen.layering), ..sheen });
+    if edits.gives_sheen() && !layered.as_ref().is_some_and(is_seen) {
         // Whatever textures there are belong to a sheen that nobody saw.
         for slot in [TextureSlot::SheenColor, TextureSlot::SheenRoughness, TextureSlot::SheenWeight] {
             material.textures[slot as usize] = None;
@@ -124,11 +127,7 @@ fn edited(mut material: Material, edits: &MaterialEdits) -> Material {
             material.textures[TextureSlot::SheenWeight as usize] = None;
         }
     }
-    // Black fibres scatter nothing. They still hide the base under a rule by which their colour does not count, and a
-    // given black stays a sheen.
-    let counts =
-        |sheen: &Sheen| sheen.weight > 0.0 && (sheen.color != Vec3::ZERO || sheen.layering == Layering::OpenPbr);
-    let is_given = edits.sheen_color.is_some();
-    material.sheen = material.sheen.filter(|sheen| is_given || counts(sheen));
+    // A black that is given stays a sheen.
+    material.sheen = material.sheen.filter(|sheen| edits.sheen_color.is_some() || is_seen(sheen));
     material
 }

@@ -23,7 +23,7 @@ impl Light {
     pub fn emission(&self) -> Vec3 {
         let divide = |radiance: f32, mean: f32| if mean > 0.0 { radiance / mean } else { 0.0 };
         let [r, g, b] = [0, 1, 2].map(|channel| divide(self.radiance[channel], self.texture_mean[channel]));
-        Vec3::new(r, g, b)
+        Vec3::new(r, g, b).min(Vec3::MAX)
     }
 
     /// The mean of the outlines' vertices, in metres: where users are told that the light is.

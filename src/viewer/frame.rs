@@ -77,7 +77,7 @@ impl Frame {
         surface.configure(&gpu.device, &configuration);
         let software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let samples = if software { SAMPLES_IN_SOFTWARE } else { SAMPLES };
-        let radiance = RadianceFormat::display(&gpu.adapter, samples).or(RadianceFormat::display(&gpu.adapter, 1));
+        let radiance = RadianceFormat::nearest_display(&gpu.adapter, samples);
         let radiance = radiance.ok_or_else(|| ViewerError::Window("the adapter cannot draw floats".to_owned()))?;
         let format = Format { radiance, output: configuration.format, measured: false };
         let renderer = Renderer::new(&gpu, format, table, &state.drawn())?;
@@ -152,14 +152,17 @@ impl Frame {
         let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
         let mut drawn = Redraw::Nothing;
         if screen.change >= Change::Drawn || size != [self.place.width, self.place.height] {
-            let view = View::new(&state.orbit().camera(), size, Rect::full(size));
+            let view = View::new(&state.camera(), size, Rect::full(size));
             self.renderer.draw(&self.gpu, encoder, size, (&view, &settings, showing));
-            let made = self.renderer.made();
-            drawn = if made == self.made { Redraw::Again } else { Redraw::First };
-            self.made = made;
+            drawn = Redraw::Again;
         }
         self.place = place;
         self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
+        let made = self.renderer.made();
+        if drawn == Redraw::Again && made != self.made {
+            drawn = Redraw::First;
+        }
+        self.made = made;
         Ok(drawn)
     }
 
@@ -207,11 +210,10 @@ impl Frame {
 
     fn picture(&self, state: &State, table: &SheenTable) -> Result<DisplayImage, String> {
         let size = [self.place.width, self.place.height];
-        let samples = RadianceFormat::display(&self.gpu.adapter, SAMPLES).map_or(1, |format| format.samples);
         let drawn = state.drawn();
-        let renderer = Offscreen::for_display(&self.gpu, samples, table, &drawn);
+        let renderer = Offscreen::nearest_for_display(&self.gpu, SAMPLES, table, &drawn);
         let mut renderer = renderer.map_err(|error| error.to_string())?;
-        let camera = state.orbit().camera();
+        let camera = state.camera();
         let picture = renderer.display(&self.gpu, &camera, size, &drawn.settings);
         native::block_on_device(&self.gpu, picture).map_err(|error| error.to_string())
     }

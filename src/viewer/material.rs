@@ -27,8 +27,9 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     }
     let material = &Drawn::new(&state.scene, &state.edits).materials[state.material];
     let mut changed = MaterialEdits::default();
+    let before = state.edits.of_material(state.material);
     match material.sheen {
-        Some(sheen) => show_sheen(ui, &sheen, &mut changed),
+        Some(sheen) => show_sheen(ui, &sheen, (material, &before), &mut changed),
         None if material.unlit => drop(ui.weak("unlit: it shines as it is")),
         None => {
             if ui.button("Add a sheen").clicked() {
@@ -48,7 +49,7 @@ fn changed<T: PartialEq>(before: T, after: T) -> Option<T> {
     (after != before).then_some(after)
 }
 
-fn show_sheen(ui: &mut Ui, sheen: &Sheen, edits: &mut MaterialEdits) {
+fn show_sheen(ui: &mut Ui, sheen: &Sheen, (material, before): (&Material, &MaterialEdits), edits: &mut MaterialEdits) {
     let mut alpha = sheen.alpha();
     ui.label("alpha");
     ui.horizontal(|ui| {
@@ -66,13 +67,25 @@ fn show_sheen(ui: &mut Ui, sheen: &Sheen, edits: &mut MaterialEdits) {
     ui.horizontal(|ui| {
         ui.label("C_sheen");
         color_button(ui, &mut color);
+        let is_textured =
+            [TextureSlot::SheenColor, TextureSlot::SheenWeight].map(|slot| material.texture(slot).is_some());
+        if is_textured != [false; 2] {
+            ui.weak("x texture, until it is changed");
+        } else if sheen.weight < 1.0 {
+            ui.weak(format!("x {:.2}, until it is changed", sheen.weight));
+        }
     });
     edits.sheen_color = changed(sheen.color, color);
     let mut map = sheen.roughness_map;
-    ui.horizontal(|ui| {
-        ui.label("roughness map");
-        pick(ui, "roughness map", &mut map, &ROUGHNESS_MAPS);
-    });
+    // It makes alpha of a file's roughness: of an alpha that is set it makes nothing.
+    ui.add_enabled_ui(before.alpha.is_none(), |ui| {
+        ui.horizontal(|ui| {
+            ui.label("roughness map");
+            pick(ui, "roughness map", &mut map, &ROUGHNESS_MAPS);
+        });
+    })
+    .response
+    .on_disabled_hover_text("alpha is set: the file's roughness does not count");
     edits.roughness_map = changed(sheen.roughness_map, map);
     edits.layering = changed(sheen.layering, layering(ui, sheen.layering));
     let mut model = sheen.model;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use glam::Vec3;
 
-use crate::scene::{CameraEdit, Drawn, Edits, Orbit, Scene};
+use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene};
 
 /// The scene as it was loaded, and what the user changes in it.
 pub struct State {
@@ -49,11 +49,16 @@ impl State {
         Drawn::new(&self.scene, &self.edits)
     }
 
-    /// The view.
+    /// The view: a camera of the scene as it is, until the user turns it.
+    pub fn camera(&self) -> Camera {
+        self.edits.camera(&self.scene)
+    }
+
+    /// The view as the user turns it.
     pub fn orbit(&self) -> Orbit {
         match self.edits.camera {
             Some(CameraEdit::Orbit(orbit)) => orbit,
-            _ => Orbit::new(&self.edits.camera(&self.scene), self.center),
+            _ => Orbit::new(&self.camera(), self.center),
         }
     }
 

@@ -279,6 +279,56 @@ fn lights_keep_their_hue_when_they_are_turned_down_and_up() {
 }
 
 #[test]
+fn a_colour_that_is_looked_at_is_no_change() {
+    let mut window = full();
+    let buttons = window.places(Role::ColorWell);
+    // The sheen's, the base's, the ambient light's, and the light's.
+    assert_eq!(buttons.len(), 4);
+    for button in buttons {
+        let before = window.state.edits.clone();
+        assert_eq!(window.click(button.center()), Change::None);
+        assert!(egui::Popup::is_any_open(&window.context), "{button}");
+        for step in 0..10 {
+            let over = button.center() + vec2(-4.0 * step as f32, 10.0 * step as f32);
+            assert_eq!(window.pass(vec![Event::PointerMoved(over)]), Change::None);
+        }
+        assert_eq!(window.state.edits, before);
+        egui::Popup::close_all(&window.context);
+        window.pass(vec![]);
+    }
+}
+
+/// The window shows the scene through its camera, as `velour render` does, until it is turned.
+#[test]
+fn a_camera_that_leans_is_shown_as_it_is() {
+    let mut scene = scene(1.0);
+    scene.cameras[0].world_from_camera *= Mat4::from_rotation_z(0.4);
+    let loaded = scene.cameras[0].clone();
+    let mut window = Window::new(scene);
+    let shown = window.state.camera();
+    assert_eq!((shown.world_from_camera, shown.projection), (loaded.world_from_camera, loaded.projection));
+    assert_eq!(window.state.edits, Edits::default());
+    window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(400.0, 320.0));
+    assert_eq!(window.state.camera().world_from_camera, window.state.orbit().camera().world_from_camera);
+}
+
+/// A value of one material's is no reason for the others to change.
+#[test]
+fn a_material_that_is_edited_takes_nothing_from_the_others() {
+    let mut scene = scene(1.0);
+    scene.materials[0].sheen = None;
+    scene.materials.push(scene.materials[0].clone());
+    let mut window = Window::new(scene);
+    window.state.edits.every_material.alpha = Some(0.5);
+    window.pass(vec![]);
+    let number = window.in_row("fuzz", Role::SpinButton)[0];
+    window.type_into(number, "0.7");
+    let drawn = window.state.drawn();
+    let alphas: Vec<_> = drawn.materials.iter().map(|material| material.sheen.map(|sheen| sheen.alpha())).collect();
+    assert_eq!(alphas, [Some(0.7), Some(0.5)]);
+}
+
+#[test]
 fn boxes_hold_what_is_typed_key_by_key() {
     for size in [1e-3, 1.0, 1e3] {
         let mut window = Window::new(scene(size));

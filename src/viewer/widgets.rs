@@ -97,9 +97,11 @@ impl Glow {
         Self { strength: strength.unwrap_or(1.0) * greatest, hue }
     }
 
-    /// The hue of the colour that a picker gives, which may be darker.
+    /// The hue of the colour that a picker gives, which may be darker. Black has none.
     pub fn set_color(&mut self, color: Vec3) {
-        self.hue = Self::new(color, None).hue;
+        if color != Vec3::ZERO {
+            self.hue = Self::new(color, None).hue;
+        }
     }
 }
 
@@ -127,6 +129,11 @@ mod tests {
         assert_eq!((dark.strength, dark.hue), (0.0, glow.hue));
         assert_eq!(Glow::new(dark.hue, Some(3.3)), Glow { strength: 3.3, hue: glow.hue });
         assert_eq!(Glow::new(Vec3::ZERO, None), Glow { strength: 0.0, hue: Vec3::ONE });
+        let mut picked = glow;
+        picked.set_color(Vec3::ZERO);
+        assert_eq!(picked, glow);
+        picked.set_color(Vec3::new(0.0, 0.5, 0.25));
+        assert_eq!(picked, Glow { hue: Vec3::new(0.0, 1.0, 0.5), ..glow });
     }
 
     #[test]

@@ -50,7 +50,7 @@ fn flags_out_of_range() {
         ("--layering stacked", "--layering"),
         ("--layering manual=2", "--layering"),
         ("--roughness-map cube", "--roughness-map"),
-        ("--sheen-model slab", "--sheen-model"),
+        ("--sheen-model slab", "the sheen-model slab takes a path tracer"),
         ("--set felt", "MATERIAL.KEY=VALUE"),
         ("--set felt.alpha=2", "[0,1]"),
         ("--set felt.hue=2", "the keys are alpha"),

@@ -141,22 +141,19 @@ impl Fibres {
     fn new(truth: &Truth, thing: usize) -> Option<Self> {
         let own = |index: usize| truth.stage.things[index].material.sheen.filter(|sheen| sheen.weight > 0.0);
         let colored = |index: usize| own(index).filter(|sheen| sheen.color != Vec3::ZERO);
-        let set = |index: usize| truth.edits.materials.get(&index).copied().unwrap_or_default();
-        let has = |index: usize| {
-            colored(index).is_some() || set(index).alpha.or(set(index).sheen_color.map(|_| 0.5)).is_some()
-        };
+        let set = truth.edits.materials.get(&thing).copied().unwrap_or_default();
         let all = truth.edits.every_material;
-        let heeds_all = has(thing) || !(0..truth.stage.things.len()).any(has);
-        let alpha = set(thing).alpha.or(all.alpha.filter(|_| heeds_all));
-        let color = set(thing).sheen_color.or(all.sheen_color.filter(|_| heeds_all));
-        let layering = set(thing).layering.or(all.layering).unwrap_or_default();
+        let is_set = set.alpha.is_some() || set.sheen_color.is_some();
+        let none_has = !(0..truth.stage.things.len()).any(|index| colored(index).is_some());
+        let heeds_all = colored(thing).is_some() || is_set || none_has;
+        let alpha = set.alpha.or(all.alpha.filter(|_| heeds_all));
+        let color = set.sheen_color.or(all.sheen_color.filter(|_| heeds_all));
+        let layering = set.layering.or(all.layering).unwrap_or_default();
         // Black fibres only hide the base, under a rule for which their colour does not count.
-        let start = match (colored(thing), alpha.is_some() || color.is_some()) {
-            (Some(sheen), _) => sheen,
-            (None, true) => Sheen::new(Vec3::ONE, 0.5),
-            (None, false) => own(thing).filter(|_| layering == Layering::OpenPbr)?,
-        };
-        let map = set(thing).roughness_map.or(all.roughness_map).unwrap_or_default();
+        let hiding = own(thing).filter(|_| layering == Layering::OpenPbr);
+        let given = (alpha.is_some() || color.is_some()).then(|| Sheen::new(Vec3::ONE, 0.5));
+        let start = colored(thing).or(hiding).or(given)?;
+        let map = set.roughness_map.or(all.roughness_map).unwrap_or_default();
         let mapped = f64::from(start.roughness).powf(f64::from(map.exponent()));
         Some(Self {
             color: color.unwrap_or(start.color).as_dvec3(),

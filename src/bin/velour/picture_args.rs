@@ -20,7 +20,7 @@ pub struct PictureArgs {
     /// Pixels, width x height; the camera's vertical field of view is kept whatever the aspect
     #[arg(long, default_value = "1280x720", value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: [u32; 2],
-    /// What the viewer has saved: camera, lights, materials; flags win over it
+    /// What the viewer has saved: view, picture, materials, lights; flags win over it
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,
     /// A camera of the scene, by name or by index [default: the first]

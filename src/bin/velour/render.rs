@@ -71,10 +71,10 @@ pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
     for edits in edits.materials.values().chain([&edits.every_material]) {
         if let Some(model) = edits.sheen_model.filter(|model| !model.is_real_time()) {
             let name = model.name();
-            return Err(Failure::input(format!("--sheen-model {name} takes a path tracer: use `velour reference`")));
+            return Err(Failure::input(format!("the sheen-model {name} takes a path tracer: use `velour reference`")));
         }
         if edits.layering == Some(Layering::Walk) {
-            return Err(Failure::input("--layering walk takes a path tracer: use `velour reference`"));
+            return Err(Failure::input("the layering walk takes a path tracer: use `velour reference`"));
         }
     }
     Ok(())

@@ -21,7 +21,7 @@ use crate::{render, state, without_device};
 pub struct View {
     /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]
     pub scene: Option<PathBuf>,
-    /// What the viewer has saved: camera, lights, materials
+    /// What the viewer has saved: view, picture, materials, lights
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,
 }

@@ -100,7 +100,7 @@ fn says(degrees: f32, base: Vec3) -> String {
 
 /// A plate of the sphere.
 fn plate(name: String, (material, degrees): (Material, f32), edits: Edits, shot: Shot) -> Plate {
-    let alpha = material.sheen.map_or(0.0, |sheen| sheen.roughness);
+    let alpha = material.sheen.map_or(0.0, |sheen| sheen.alpha());
     let MaterialEdits { sheen_model, layering, .. } = edits.every_material;
     let (model, layering) = (sheen_model.unwrap_or_default(), layering.unwrap_or_default());
     let mut lines = vec![

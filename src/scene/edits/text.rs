@@ -152,6 +152,9 @@ impl Reader<'_> {
         for (key, value) in table.iter() {
             self.set(&mut orbit, key, value, " of the view")?;
         }
+        if table.contains_key("yfov") && table.contains_key("ymag") {
+            return Err(of_view("yfov and ymag exclude each other; keep one of them"));
+        }
         match orbit.projection {
             Projection::Perspective { near, far, .. } if near > 0.0 && near < far => Ok(orbit),
             Projection::Orthographic { near, far, .. } if near < far && far.is_finite() => Ok(orbit),

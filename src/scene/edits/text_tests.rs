@@ -148,6 +148,8 @@ fn errors_name_line_and_key() {
         ("view = 1", "line 1, view: give a table: [view]"),
         ("[view]\nfar = 0.01", "line 1, view: give near above 0, and far above near"),
         ("[view]\nymag = 1\nfar = inf", "line 1, view: give far above near, and finite"),
+        ("[view]\nyfov = 1\nymag = 1", "line 1, view: yfov and ymag exclude each other"),
+        ("[[light]]\nindex = 0\nposition = [0, 1e11, 0]", "line 3, position of light 0: give three numbers in [-1e10,"),
         ("[view]\nelevation = 2", "line 2, elevation of the view: give an angle in radians in [-1.56"),
         ("[view]\nroll = 1", "line 2, roll of the view: the keys are target"),
         ("camera = 'eye'\n[view]\n", "line 1, camera: [view] says from where, too; keep one of them"),

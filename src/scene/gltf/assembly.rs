@@ -12,13 +12,12 @@ use super::skins::Skins;
 use super::{Fault, cut, materials};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
-use crate::scene::{Bounds, Instance, Mesh, Scene};
+use crate::scene::{Bounds, FARTHEST, Instance, Mesh, Scene};
 
 /// The most instances: with a few bytes a file puts a mesh of many primitives at one more node.
 const INSTANCES_MAX: usize = 1 << 20;
-/// Metres from the origin within which things must stand: farther than the Moon, and near enough for the cube of any
-/// distance, with lights set up around the things, to fit in 32-bit floats.
-const REACH: f64 = 1e10;
+/// Metres from the origin within which things must stand.
+const REACH: f64 = FARTHEST as f64;
 /// A transform whose axes, made unit, span less than this volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
 /// Shortest axis of a transform in metres: the square of anything shorter is lost in 32-bit floats.

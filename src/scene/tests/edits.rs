@@ -62,9 +62,10 @@ fn edits_of_all_are_for_those_with_a_sheen_unless_none_has_one() {
     assert_eq!(sheens(&of(&[None, Some(red), None]), &alpha), [None, rough(red), None]);
     let white = Sheen::new(Vec3::ONE, 0.7);
     assert_eq!(sheens(&of(&[None, None]), &alpha), [Some(white); 2]);
-    // What gets a sheen by itself has one; then there is one that has.
+    // What the file has decides: a sheen that one is given takes none from the others.
     let both = alpha.then(&one(0, given(None, Some(Vec3::Y))));
-    assert_eq!(sheens(&of(&[None, None]), &both), [rough(Sheen::new(Vec3::Y, 0.5)), None]);
+    assert_eq!(sheens(&of(&[None, None]), &both), [rough(Sheen::new(Vec3::Y, 0.5)), Some(white)]);
+    assert_eq!(sheens(&of(&[None, Some(red), None]), &both), [rough(Sheen::new(Vec3::Y, 0.5)), rough(red), None]);
     // Rules are no sheens.
     let rules = MaterialEdits { layering: Some(Layering::None), ..MaterialEdits::default() };
     assert_eq!(sheens(&of(&[None]), &every(rules)), [None]);
@@ -112,6 +113,9 @@ fn black_fibres_count_where_they_hide_the_base() {
     let openpbr = every(MaterialEdits { layering: Some(Layering::OpenPbr), ..MaterialEdits::default() });
     let hiding = Sheen { layering: Layering::OpenPbr, ..fuzz };
     assert_eq!(sheens(&of(&[Some(fuzz)]), &openpbr), [Some(hiding)]);
+    // Another alpha leaves it black, and as thin as it was.
+    let smoother = openpbr.clone().then(&every(given(Some(0.1), None)));
+    assert_eq!(sheens(&of(&[Some(fuzz)]), &smoother), [Some(Sheen { roughness: 0.1, ..hiding })]);
     assert_eq!(sheens(&of(&[Some(Sheen { weight: 0.0, ..fuzz })]), &openpbr), [None]);
 }
 
