@@ -40,11 +40,17 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     request
 }
 
-/// What is done with the whole, and what became of it.
+/// What is done with the whole, and above it what became of that: the buttons stay where they are.
 fn actions(ui: &mut Ui, state: &mut State) -> Option<Request> {
     let mut request = None;
     ui.add_space(4.0);
-    ui.horizontal_wrapped(|ui| {
+    if !state.message.is_empty() {
+        ui.label(&state.message);
+    }
+    let milliseconds = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
+    ui.label(milliseconds.unwrap_or_default());
+    ui.weak("drag: turn; right or Shift drag: pan; wheel: zoom");
+    ui.horizontal(|ui| {
         if ui.button("Reset").on_hover_text("Scene, view and settings as they were loaded").clicked() {
             state.reset();
         }
@@ -56,12 +62,6 @@ fn actions(ui: &mut Ui, state: &mut State) -> Option<Request> {
             request = Some(Request::SaveState);
         }
     });
-    if !state.message.is_empty() {
-        ui.label(&state.message);
-    }
-    let milliseconds = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
-    ui.label(milliseconds.unwrap_or_default());
-    ui.weak("drag: turn; right or Shift drag: pan; wheel: zoom");
     request
 }
 

@@ -29,7 +29,8 @@ impl Window {
         context.enable_accesskit();
         let state = State::new("test.glb", scene, Edits::default());
         let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
-        window.pass(vec![]);
+        // egui finds the sizes of things by laying them out.
+        (0..3).for_each(|_| drop(window.pass(vec![])));
         window
     }
 
