@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn a_whole_turn_comes_back_and_the_poles_are_not_passed() {
         let start = Orbit::new(&camera(), Vec3::new(1.0, 0.5, -2.0));
-        let mut orbit = start.clone();
+        let mut orbit = start;
         (0..20).for_each(|_| orbit.turn(Vec2::new(0.1, 0.0)));
         assert!(orbit.camera().world_from_camera.abs_diff_eq(start.camera().world_from_camera, 1e-4));
         orbit.turn(Vec2::new(0.0, 50.0));
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn zooming_in_and_out_comes_back() {
         let start = Orbit::new(&camera(), Vec3::ZERO);
-        let mut orbit = start.clone();
+        let mut orbit = start;
         orbit.zoom(1.25);
         assert!(orbit.distance < start.distance);
         orbit.zoom(1.0 / 1.25);

@@ -61,9 +61,10 @@ mod tests {
     use super::super::layout;
     use super::super::state::State;
     use super::*;
-    use crate::scene::Edits;
-    use crate::scene::assets::DRAPE;
+    use crate::scene::{Edits, gltf};
     use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, ViewportId, pos2, vec2};
+
+    const DRAPE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/drape.glb");
 
     /// A window of 1280 by 720 points without the window.
     struct Desk {
@@ -76,7 +77,7 @@ mod tests {
     impl Desk {
         /// After the first frames.
         fn settled() -> Self {
-            let state = State::new(DRAPE.name, DRAPE.load().unwrap(), Edits::default());
+            let state = State::new("drape.glb", gltf::load(DRAPE.as_ref()).unwrap(), Edits::default());
             let mut desk = Self { context: egui::Context::default(), state, screen: Screen::new(), time: 0.0 };
             assert!(desk.screen.is_stale());
             desk.settle(vec![]);

@@ -30,7 +30,9 @@ impl Window {
         let state = State::new("test.glb", scene, Edits::default());
         let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
         // egui finds the sizes of things by laying them out.
-        (0..3).for_each(|_| drop(window.pass(vec![])));
+        for _ in 0..3 {
+            window.pass(vec![]);
+        }
         window
     }
 

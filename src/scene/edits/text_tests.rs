@@ -44,7 +44,7 @@ fn full() -> Edits {
     };
     let orbit = Orbit {
         target: Vec3::new(0.1, -0.2, 3e8),
-        azimuth: 6.283_185,
+        azimuth: 6.234_567,
         elevation: -Orbit::STEEPEST,
         distance: 1e-9,
         projection: Projection::Perspective { yfov: 0.6, near: 1e-5, far: f32::INFINITY },
