@@ -96,14 +96,11 @@ impl Boundable for Boxed {
 impl<P: Primitive> Bvh<P> {
     /// A hierarchy over these primitives, in another order; those whose bounds are not finite are left out.
     pub fn new(primitives: Vec<P>) -> Self {
-        let bounded: Vec<(P, [DVec3; 2])> = primitives
-            .into_iter()
-            .map(|primitive| {
-                let bounds = primitive.bounds();
-                (primitive, bounds)
-            })
-            .filter(|(_, [low, high])| low.is_finite() && high.is_finite())
-            .collect();
+        let bounded = |primitive: P| {
+            let bounds = primitive.bounds();
+            bounds.iter().all(|corner| corner.is_finite()).then_some((primitive, bounds))
+        };
+        let bounded: Vec<(P, [DVec3; 2])> = primitives.into_iter().filter_map(bounded).collect();
         let union = |[low, high]: [DVec3; 2], (_, bounds): &(P, [DVec3; 2])| [low.min(bounds[0]), high.max(bounds[1])];
         let [low, high] = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], union);
         let (center, scale) = if bounded.is_empty() {
@@ -121,8 +118,7 @@ impl<P: Primitive> Bvh<P> {
         let boxes: Vec<Boxed> = bounded.iter().enumerate().map(|(index, (_, bounds))| padded(index, *bounds)).collect();
         let tree = build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
         let mut primitives: Vec<Option<P>> = bounded.into_iter().map(|(primitive, _)| Some(primitive)).collect();
-        let ordered = tree.primitive_indices.iter().filter_map(|&index| primitives[index as usize].take());
-        let primitives = ordered.collect();
+        let primitives = tree.primitive_indices.iter().filter_map(|&index| primitives[index as usize].take()).collect();
         Self { tree, primitives, center, scale }
     }
 
@@ -388,8 +384,7 @@ mod tests {
         }
     }
 
-    /// All but one thing are so near to each other that their boxes are alike: the time that the tree takes must not grow
-    /// with the square of their number, which took minutes here.
+    /// Their boxes are all alike: to pair but two of them at a time took minutes.
     #[test]
     fn one_thing_may_be_far_from_very_many() {
         let mut balls = balls(60_000, DVec3::ZERO, 1.0);
@@ -397,12 +392,9 @@ mod tests {
         let start = std::time::Instant::now();
         let bvh = Bvh::new(balls);
         assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
-        for direction in [DVec3::X, DVec3::NEG_Y, DVec3::ONE.normalize()] {
-            let ray = Ray { origin: DVec3::ZERO - 5.0 * direction, direction };
-            let expected = bvh.primitives().iter().filter_map(|ball| ball.meet(&ray)).map(|(distance, ())| distance);
-            let expected = expected.filter(|distance| *distance > 0.0).min_by(f64::total_cmp);
-            let found = bvh.nearest(&ray, [0.0, 1e11], |_| true).map(|meeting| meeting.distance);
-            assert_eq!(found, expected);
-        }
+        let ray = Ray { origin: DVec3::splat(-5.0), direction: DVec3::ONE.normalize() };
+        let hits = bvh.primitives().iter().filter_map(|ball| Some(ball.meet(&ray)?.0));
+        let found = bvh.nearest(&ray, [0.0, 1e11], |_| true).map(|meeting| meeting.distance);
+        assert_eq!(found, hits.min_by(f64::total_cmp));
     }
 }
