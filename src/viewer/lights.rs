@@ -4,7 +4,7 @@ use egui::Ui;
 use glam::Vec3;
 
 use super::state::State;
-use super::widgets::{Glow, color_button, number_box, short};
+use super::widgets::{Glow, hue_button, number_box, short};
 use crate::scene::FARTHEST;
 
 /// Most lights whose sections are open from the start.
@@ -39,11 +39,7 @@ fn light(ui: &mut Ui, state: &mut State, index: usize) {
         ui.label("radiance");
         let speed = 0.02 * glow.strength.max(1e-3);
         number_box(ui, &mut glow.strength, 0.0..=f32::MAX, speed);
-        let mut color = glow.hue;
-        color_button(ui, &mut color);
-        if color != glow.hue {
-            glow.set_color(color);
-        }
+        hue_button(ui, &mut glow);
     });
     if glow != glow_before {
         (edits.radiance, edits.strength) = (Some(glow.hue), Some(glow.strength));

@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::state::State;
-use super::widgets::{Glow, color_button, slider};
+use super::widgets::{Glow, hue_button, slider};
 use super::{lights, material, notices};
 use crate::picture::ToneCurve;
 use crate::scene::Edits;
@@ -113,11 +113,7 @@ fn ambient(ui: &mut Ui, edits: &mut Edits) {
         // Room for its box and the colour.
         ui.spacing_mut().slider_width = 80.0;
         slider(ui, &mut glow.strength, 0.0..=AMBIENT_MAX, |slider| slider.logarithmic(true).smallest_positive(1e-3));
-        let mut color = glow.hue;
-        color_button(ui, &mut color);
-        if color != glow.hue {
-            glow.set_color(color);
-        }
+        hue_button(ui, &mut glow);
     });
     if glow != before {
         (edits.ambient, edits.ambient_strength) = (Some(glow.hue), Some(glow.strength));

@@ -81,6 +81,15 @@ pub fn color_button(ui: &mut Ui, color: &mut Vec3) {
     }
 }
 
+/// A colour button on the hue of a glow.
+pub fn hue_button(ui: &mut Ui, glow: &mut Glow) {
+    let mut color = glow.hue;
+    color_button(ui, &mut color);
+    if color != glow.hue {
+        glow.set_color(color);
+    }
+}
+
 /// A radiance as users set it: its greatest channel, and its hue. The hue stays when the radiance goes to 0 and back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glow {
@@ -98,7 +107,7 @@ impl Glow {
     }
 
     /// The hue of the colour that a picker gives, which may be darker. Black has none.
-    pub fn set_color(&mut self, color: Vec3) {
+    fn set_color(&mut self, color: Vec3) {
         if color != Vec3::ZERO {
             self.hue = Self::new(color, None).hue;
         }

@@ -39,27 +39,27 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
 /// The viewer; without a display, or a device that draws on it, the picture that it would show.
 pub fn run_or_render(path: Option<&Path>) -> Result<(), Failure> {
     let (name, scene) = load(path)?;
-    let notices = scene.notices.clone();
-    let shown = velour::viewer::event_loop().and_then(|event_loop| {
-        notices.iter().for_each(complain);
-        velour::viewer::run(event_loop, &name, (scene, Edits::default()), SheenTable::embedded())
-    });
-    match shown {
-        Err(why @ (ViewerError::NoDisplay(_) | ViewerError::Device(_))) => {
-            let output = Path::new("velour.png");
-            // The viewer has kept its own.
-            let (_, scene) = load(path)?;
-            check_apart(output, &scene, &[])?;
-            render_default(&scene, output)?;
-            if matches!(why, ViewerError::NoDisplay(_)) {
-                notices.iter().for_each(complain);
-            }
-            let what = if path.is_some() { &name } else { "the default scene" };
-            say(format!("{why}: {what} is rendered to {}", output.display()));
-            Ok(())
-        }
+    let event_loop = match velour::viewer::event_loop() {
+        Ok(event_loop) => event_loop,
+        Err(no_display) => return render_instead(&no_display, path, &scene, &scene.notices),
+    };
+    scene.notices.iter().for_each(complain);
+    match velour::viewer::run(event_loop, &name, (scene, Edits::default()), SheenTable::embedded()) {
+        // The viewer has kept the scene; what there is to say of it has been said.
+        Err(why @ ViewerError::Device(_)) => render_instead(&why, path, &load(path)?.1, &[]),
         shown => shown.map_err(Failure::device),
     }
+}
+
+/// Renders the scene to velour.png, says what there is to say of it, and why it is not in a window.
+fn render_instead(why: &ViewerError, path: Option<&Path>, scene: &Scene, notices: &[String]) -> Result<(), Failure> {
+    let output = Path::new("velour.png");
+    check_apart(output, scene, &[])?;
+    render_default(scene, output)?;
+    notices.iter().for_each(complain);
+    let what = path.map_or("the default scene".to_owned(), |path| path.display().to_string());
+    say(format!("{why}: {what} is rendered to {}", output.display()));
+    Ok(())
 }
 
 /// The scene in a file, or the default one, and its name.

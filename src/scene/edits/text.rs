@@ -20,8 +20,6 @@ pub struct EditsError {
     what: String,
 }
 
-type Table<'a> = DeTable<'a>;
-
 impl Edits {
     /// A text that [`Edits::from_text`] takes back to the same edits of the same scene.
     pub fn to_text(&self, scene: &Scene) -> String {
@@ -110,7 +108,7 @@ impl Reader<'_> {
     }
 
     /// The edits in the whole text.
-    fn edits(&self, root: &Table) -> Result<Edits, EditsError> {
+    fn edits(&self, root: &DeTable) -> Result<Edits, EditsError> {
         let mut edits = Edits::default();
         for (key, value) in root.iter() {
             let at = key.span().start;
@@ -187,7 +185,7 @@ impl Reader<'_> {
     }
 
     /// The indices of the things that a table is about, and how messages call them.
-    fn selected(&self, table: &Table, kind: Kind, start: usize) -> Result<(Vec<usize>, String), EditsError> {
+    fn selected(&self, table: &DeTable, kind: Kind, start: usize) -> Result<(Vec<usize>, String), EditsError> {
         let noun = kind.noun();
         let found = SELECTORS.map(|key| table.get_key_value(key));
         let (key, value) = match found {
