@@ -11,7 +11,7 @@ struct LightsPunctual {
     direction: vec3f,
     // The cone's falloff is (scale cosine + offset) clamped, squared.
     cone_scale: f32,
-    cone_offset: f32,
+    cone_cosine: f32,
 }
 
 struct LightsCounts {
@@ -94,7 +94,7 @@ fn lights_add_punctual(receiver: Receiver, incident: LobesColors, light: LightsP
     let local = receiver.local_from_world * wo;
     // Falls off to nothing at the range as KHR_lights_punctual recommends.
     let reach = square * light.inverse_range_squared;
-    let cone = saturate(light.cone_scale * dot(light.direction, -wo) + light.cone_offset);
+    let cone = saturate(light.cone_scale * (dot(light.direction, -wo) - light.cone_cosine));
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
     var densities: LobesScalars;
     if dot(receiver.up, local) > 0.0 {

@@ -34,7 +34,7 @@ pub(super) struct GpuPunctual {
     has_place: f32,
     direction: Vec3,
     cone_scale: f32,
-    cone_offset: f32,
+    cone_cosine: f32,
     padding: [u32; 3],
 }
 
@@ -182,9 +182,12 @@ fn one_punctual(light: &PunctualLight) -> GpuPunctual {
         PunctualKind::Spot { range, inner, outer } => (range, Some((inner, outer))),
         PunctualKind::Directional => (f32::INFINITY, None),
     };
-    // KHR_lights_punctual's recommended falloff between the cones' cosines.
-    let scale = |(inner, outer): (f32, f32)| 1.0 / (inner.cos() - outer.cos()).max(1e-3);
-    let cone_scale = cone.map_or(0.0, scale);
+    // KHR_lights_punctual's falloff between the cones' cosines; where these are equal, as steep as they can be told apart.
+    // Without a cone all directions are well within.
+    let (cone_cosine, cone_scale) = cone.map_or((-2.0, 1.0), |(inner, outer)| {
+        let [inner, outer] = [inner, outer].map(|angle| f64::from(angle).cos());
+        (outer as f32, (inner - outer).max(f64::from(f32::EPSILON)).recip() as f32)
+    });
     GpuPunctual {
         intensity: light.intensity,
         inverse_range_squared: range.recip().powi(2),
@@ -192,7 +195,7 @@ fn one_punctual(light: &PunctualLight) -> GpuPunctual {
         has_place: f32::from(u8::from(light.kind != PunctualKind::Directional)),
         direction: light.direction,
         cone_scale,
-        cone_offset: cone.map_or(1.0, |(_, outer)| -outer.cos() * cone_scale),
+        cone_cosine,
         padding: [0; 3],
     }
 }
@@ -223,7 +226,7 @@ mod tests {
             has_place,
             direction,
             cone_scale,
-            cone_offset
+            cone_cosine
         });
         let counts = members!(GpuCounts { quads, polygons, punctual });
         for (name, size, members) in [

@@ -72,9 +72,10 @@ pub enum PunctualKind {
     Spot {
         /// Metres, > 0, may be infinite: the light has fallen to nothing there.
         range: f32,
-        /// Angle to the direction in radians, in \[0, `outer`): up to here the light is full.
+        /// Angle to the direction in radians, in \[0, `outer`\]: up to here the light is full.
         inner: f32,
-        /// Angle to the direction in radians, in (`inner`, pi / 2\]: from here on there is no light.
+        /// Angle to the direction in radians, in (0, pi / 2\]: from here on there is no light. Where it is `inner`, the
+        /// cone has a hard edge.
         outer: f32,
     },
     /// From infinitely far away: everywhere the same.

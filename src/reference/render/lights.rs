@@ -153,9 +153,11 @@ pub(super) fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, f64, DV
         PunctualKind::Point { range } => (way / distance, distance, intensity * falloff(range)),
         PunctualKind::Spot { range, inner, outer } => {
             let cosine = direction.dot(-way / distance);
-            // In f32, as the angles are stored: their cosines may be near each other.
-            let scale = 1.0 / f64::from((inner.cos() - outer.cos()).max(1e-3));
-            let cone = (scale * (cosine - f64::from(outer.cos()))).clamp(0.0, 1.0).powi(2);
+            let [inner, outer] = [inner, outer].map(|angle| f64::from(angle).cos());
+            let cone = match inner > outer {
+                true => ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0).powi(2),
+                false => f64::from(u8::from(cosine > outer)),
+            };
             (way / distance, distance, intensity * falloff(range) * cone)
         }
     }

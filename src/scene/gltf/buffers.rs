@@ -1,21 +1,16 @@
 //! The bytes that accessors point into: within the file, beside it, or spelled out in a data URI.
 
-use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::fs::File;
 use std::io::Read;
 use std::ops::Deref;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use gltf::json;
-use percent_encoding::percent_decode_str;
 
-use super::Fault;
 use super::container::Document;
-use super::extensions;
+use super::{Fault, extensions, uri};
 use crate::scene::error::label;
 
 /// The most bytes that are read from one file: the greatest length that a .glb can state.
@@ -97,16 +92,15 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
 pub fn named_files(root: &json::Root, folder: Option<&Path>) -> BTreeSet<PathBuf> {
     let buffers = root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
     let images = root.images.iter().filter_map(|image| image.uri.as_deref());
-    let files = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
-    files.filter_map(|uri| resolve(uri, folder).ok()).collect()
+    buffers.chain(images).filter_map(|uri| uri::path(uri, folder).ok()).collect()
 }
 
 /// The bytes that a URI stands for: a file in `folder`, read only once, or the data in the URI itself.
 pub fn fetch(uri: &str, folder: Option<&Path>, files: &mut Files) -> Result<Rc<Vec<u8>>, Fault> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        return decode(data).map(Rc::new);
+    if let Some(data) = uri::data(uri)? {
+        return Ok(Rc::new(data));
     }
-    let path = resolve(uri, folder)?;
+    let path = uri::path(uri, folder)?;
     let identity = path.canonicalize().unwrap_or_else(|_| path.clone());
     if let Some(bytes) = files.get(&identity) {
         return Ok(Rc::clone(bytes));
@@ -114,34 +108,6 @@ pub fn fetch(uri: &str, folder: Option<&Path>, files: &mut Files) -> Result<Rc<V
     let bytes = Rc::new(read_file(&path).map_err(|fault| Fault::at(path.display(), fault))?);
     files.insert(identity, Rc::clone(&bytes));
     Ok(bytes)
-}
-
-/// The data of a data URI, which follows its media type.
-fn decode(data: &str) -> Result<Vec<u8>, Fault> {
-    let encoded = data.split_once(',').and_then(|(media, data)| media.ends_with(";base64").then_some(data));
-    let encoded = encoded.ok_or_else(|| Fault::new("its data URI is not base64; export the file again"))?;
-    let broken = |error| Fault::new(format_args!("its data URI is broken ({error}); export the file again"));
-    STANDARD.decode(encoded).map_err(broken)
-}
-
-/// The path that a URI names, within the scene's folder: a scene must not reach other files of its user.
-fn resolve(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
-    let shown: String = uri.chars().take(200).collect();
-    let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
-    let folder = folder.ok_or_else(|| refuse("names a file, and this scene has no folder; give a .glb file"))?;
-    if uri.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/')) {
-        return Err(refuse("has a scheme; give a path relative to the scene's folder"));
-    }
-    let decoded: Cow<str> =
-        percent_decode_str(uri).decode_utf8().map_err(|_| refuse("is not UTF-8; rename the file"))?;
-    let path = Path::new(decoded.as_ref());
-    let inside = |component| matches!(component, Component::Normal(_) | Component::CurDir);
-    if decoded.is_empty() || decoded.contains('\0') || !path.components().all(inside) {
-        return Err(refuse(
-            "leads out of the scene's folder; put the file beside the scene and name it by a relative path",
-        ));
-    }
-    Ok(folder.join(path))
 }
 
 /// The part of its buffer that a view shows; `None` where there is no such part.

@@ -4,6 +4,7 @@ use gltf::json::Root;
 
 use super::Fault;
 use super::json::parse_json;
+use crate::scene::notices::Notices;
 
 /// Bytes of a chunk before its data: its length and its type.
 const CHUNK_HEADER: usize = 8;
@@ -18,12 +19,12 @@ pub struct Document<'a> {
 }
 
 /// Splits a .glb or .gltf file into its parts; which of the two it is, its first bytes tell.
-pub fn parse(bytes: &[u8]) -> Result<Document<'_>, Fault> {
+pub fn parse<'a>(bytes: &'a [u8], notices: &mut Notices) -> Result<Document<'a>, Fault> {
     if bytes.is_empty() {
         return Err(Fault::new("the file is empty; give a .gltf or .glb file"));
     }
     let (json, binary) = if bytes.starts_with(b"glTF") { split_glb(bytes)? } else { (bytes, None) };
-    Ok(Document { root: parse_json(json)?, binary })
+    Ok(Document { root: parse_json(json, notices)?, binary })
 }
 
 /// The JSON and, where there is one, the binary chunk.
@@ -42,28 +43,37 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         true => Fault::new(format_args!("the .glb says that it is {length} bytes long; export it again")),
         false => short(length.into()),
     })?;
-    let (json, rest) = split_chunk(body, b"JSON")?;
-    // Chunks of other kinds may follow; readers are to skip them.
-    let binary = if rest.is_empty() { None } else { Some(split_chunk(rest, b"BIN\0")?.0) };
-    Ok((json, binary))
+    let (kind, json, rest) = split_chunk(body, "JSON")?;
+    if kind != b"JSON" {
+        let found = kind.escape_ascii();
+        return Err(Fault::new(format_args!("the .glb begins with a chunk '{found}', not with JSON; export it again")));
+    }
+    Ok((json, binary_chunk(rest)?))
 }
 
-/// The data of the first chunk, which must be of `kind`, and what follows it.
-fn split_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Result<(&'a [u8], &'a [u8]), Fault> {
-    let name = String::from_utf8_lossy(kind.strip_suffix(b"\0").unwrap_or(kind));
-    let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
-    let header = bytes.get(..CHUNK_HEADER).ok_or_else(cut)?;
-    if header[4..] != kind[..] {
-        let found = header[4..].escape_ascii();
-        let what = format_args!("the .glb holds a chunk '{found}' in the {name} chunk's place; export it again");
-        return Err(Fault::new(what));
+/// The first binary chunk among those after the JSON. Readers are to skip chunks of other kinds.
+fn binary_chunk(mut rest: &[u8]) -> Result<Option<&[u8]>, Fault> {
+    while !rest.is_empty() {
+        let (kind, data, next) = split_chunk(rest, "BIN")?;
+        if kind == b"BIN\0" {
+            return Ok(Some(data));
+        }
+        rest = next;
     }
+    Ok(None)
+}
+
+/// The kind and the data of the first chunk, and what follows it. Errors call it `name`.
+fn split_chunk<'a>(bytes: &'a [u8], name: &str) -> Result<(&'a [u8], &'a [u8], &'a [u8]), Fault> {
+    let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
+    let (header, rest) = bytes.split_at_checked(CHUNK_HEADER).ok_or_else(cut)?;
     let length = le_u32(&header[..4]) as usize;
     if !length.is_multiple_of(4) {
         let what = format_args!("the .glb's {name} chunk is {length} bytes long, no multiple of 4; export it again");
         return Err(Fault::new(what));
     }
-    bytes[CHUNK_HEADER..].split_at_checked(length).ok_or_else(cut)
+    let (data, next) = rest.split_at_checked(length).ok_or_else(cut)?;
+    Ok((&header[4..], data, next))
 }
 
 fn le_u32(bytes: &[u8]) -> u32 {

@@ -1,9 +1,10 @@
-//! From text to glTF's JSON: the version, and the types of all values.
+//! From text to glTF's JSON: the version, and the types of all values, however they are spelled.
 
 use gltf::json::Root;
-use serde_json::{Map, Value};
+use serde_json::{Map, Number, Value};
 
-use super::Fault;
+use super::{Fault, factors};
+use crate::scene::notices::Notices;
 
 /// The most entries of any list in a file: a few bytes of JSON become hundreds in memory.
 const COUNT_MAX: usize = 1 << 20;
@@ -36,8 +37,12 @@ const INDICES: [&str; 24] = [
     "wrapT",
 ];
 
+/// Beyond it, neighbouring `f64` are more than 1 apart.
+const WHOLE_MAX: f64 = (1u64 << 53) as f64;
+
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
-pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
+pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<Root, Fault> {
+    let json = bare(text);
     let mut value: Value = serde_json::from_slice(json).map_err(|error| match is_object(json) {
         true => Fault::new(format_args!("its JSON is broken ({error}); correct it or export the file again")),
         false => Fault::new(format_args!("not a glTF file ({error}); give a .gltf or .glb file")),
@@ -56,8 +61,17 @@ pub fn parse_json(json: &[u8]) -> Result<Root, Fault> {
     for (key, value) in root.iter_mut() {
         prepare(key, value)?;
     }
+    factors::mend(root, notices);
     let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
     serde_path_to_error::deserialize(value).map_err(wrong)
+}
+
+/// The text without a byte order mark, which readers may ignore (RFC 8259, section 8.1), and without zeros at its end,
+/// by which some pad the JSON of a .glb in place of spaces.
+fn bare(text: &[u8]) -> &[u8] {
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let padding = text.iter().rev().take_while(|&&byte| byte == 0).count();
+    &text[..text.len() - padding]
 }
 
 /// Whether the text begins like a JSON object, and so is meant to be one.
@@ -95,8 +109,8 @@ fn check_counts(root: &Map<String, Value>) -> Result<(), Fault> {
     }
 }
 
-/// Drops what is never read, and refuses indices that would wrap. Recurses as deep as the JSON, which its parser limits
-/// to 128.
+/// Drops what is never read, spells integers as such, and refuses indices that would wrap. Recurses as deep as the JSON,
+/// which its parser limits to 128.
 fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
     match value {
         Value::Object(members) => {
@@ -110,10 +124,21 @@ fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
                 prepare(key, element)?;
             }
         }
-        Value::Number(number) if INDICES.contains(&key) && number.as_u64().is_some_and(|n| n > u32::MAX.into()) => {
-            return Err(Fault::at(key, format_args!("the index {number} is out of range; export the file again")));
+        Value::Number(number) => {
+            *number = integer(number).unwrap_or_else(|| number.clone());
+            if INDICES.contains(&key) && number.as_u64().is_some_and(|index| index > u32::MAX.into()) {
+                return Err(Fault::at(key, format_args!("the index {number} is out of range; export the file again")));
+            }
         }
         _ => {}
     }
     Ok(())
+}
+
+/// The integer that a number is though it has a decimal point or an exponent, as 4.0 and 1e2 (glTF 2.0, section 2.7).
+/// Not that of -0.0, whose sign would be lost.
+fn integer(number: &Number) -> Option<Number> {
+    let value = number.as_f64().filter(|_| number.is_f64())?;
+    let is_whole = value.fract() == 0.0 && value.abs() <= WHOLE_MAX && (value != 0.0 || value.is_sign_positive());
+    is_whole.then(|| Number::from(value as i64))
 }

@@ -1,6 +1,4 @@
-//! Materials: their factors, with ranges checked, and which textures they use.
-
-use std::ops::RangeInclusive;
+//! Materials: their factors, which are in their ranges already, and which textures they use.
 
 use glam::Vec3;
 use gltf::json::material::AlphaMode as JsonAlphaMode;
@@ -53,10 +51,8 @@ fn read_one(material: &json::Material, textures: usize) -> Result<Material, Stri
 /// What glTF has in its core, without extensions.
 fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, String> {
     let pbr = &material.pbr_metallic_roughness;
-    let [red, green, blue, opacity] = in_unit("baseColorFactor", pbr.base_color_factor.0)?;
-    let [metallic] = in_unit("metallicFactor", [pbr.metallic_factor.0])?;
-    let [roughness] = in_unit("roughnessFactor", [pbr.roughness_factor.0])?;
-    let emission = in_unit("emissiveFactor", material.emissive_factor.0)?.into();
+    let [red, green, blue, opacity] = pbr.base_color_factor.0;
+    let emission = finite("emissiveFactor", material.emissive_factor.0)?.into();
     uses.add("baseColorTexture", TextureSlot::BaseColor, &pbr.base_color_texture)?;
     uses.add("metallicRoughnessTexture", TextureSlot::MetallicRoughness, &pbr.metallic_roughness_texture)?;
     uses.add("emissiveTexture", TextureSlot::Emission, &material.emissive_texture)?;
@@ -64,19 +60,19 @@ fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, Str
         name: super::cut(material.name.as_deref().unwrap_or_default()),
         opacity,
         alpha_mode: alpha_mode(material)?,
-        metallic,
-        roughness,
+        metallic: pbr.metallic_factor.0,
+        roughness: pbr.roughness_factor.0,
         emission,
         double_sided: material.double_sided,
         ..Material::matte("", Vec3::new(red, green, blue))
     };
     if let Some(normal) = &material.normal_texture {
-        [read.normal_scale] = in_range("normalTexture.scale", [normal.scale], f32::MIN..=f32::MAX)?;
+        [read.normal_scale] = finite("normalTexture.scale", [normal.scale])?;
         let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
         uses.add_parts("normalTexture", TextureSlot::Normal, (normal.index, normal.tex_coord, others))?;
     }
     if let Some(occlusion) = &material.occlusion_texture {
-        [read.occlusion_strength] = in_unit("occlusionTexture.strength", [occlusion.strength.0])?;
+        read.occlusion_strength = occlusion.strength.0;
         let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
         uses.add_parts("occlusionTexture", TextureSlot::Occlusion, (occlusion.index, occlusion.tex_coord, others))?;
     }
@@ -84,7 +80,7 @@ fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, Str
 }
 
 fn alpha_mode(material: &json::Material) -> Result<AlphaMode, String> {
-    let [cutoff] = in_range("alphaCutoff", [material.alpha_cutoff.unwrap_or_default().0], 0.0..=f32::MAX)?;
+    let [cutoff] = finite("alphaCutoff", [material.alpha_cutoff.unwrap_or_default().0])?;
     match material.alpha_mode {
         Valid(JsonAlphaMode::Opaque) => Ok(AlphaMode::Opaque),
         Valid(JsonAlphaMode::Mask) => Ok(AlphaMode::Mask { cutoff }),
@@ -96,15 +92,15 @@ fn alpha_mode(material: &json::Material) -> Result<AlphaMode, String> {
 fn emissive_strength(material: &json::Material) -> Result<f32, String> {
     let strength = material.extensions.as_ref().and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
-    let [strength] = in_range("emissiveStrength", [strength], 0.0..=f32::MAX)?;
+    let [strength] = finite("emissiveStrength", [strength])?;
     Ok(strength)
 }
 
 /// The specular reflection of dielectrics, and the sheen.
 fn read_layers(others: &serde_json::Map<String, Value>, read: &mut Material, uses: &mut Uses) -> Result<(), String> {
     let specular: Specular = extension(others)?.unwrap_or_default();
-    [read.specular] = in_unit("specularFactor", [specular.specular_factor])?;
-    read.specular_color = in_range("specularColorFactor", specular.specular_color_factor, 0.0..=f32::MAX)?.into();
+    read.specular = specular.specular_factor;
+    read.specular_color = finite("specularColorFactor", specular.specular_color_factor)?.into();
     uses.add("specularTexture", TextureSlot::Specular, &specular.specular_texture)?;
     uses.add("specularColorTexture", TextureSlot::SpecularColor, &specular.specular_color_texture)?;
     read.ior = extension::<Ior>(others)?.unwrap_or_default().ior;
@@ -121,34 +117,23 @@ fn read_layers(others: &serde_json::Map<String, Value>, read: &mut Material, use
 }
 
 fn read_sheen(sheen: &SheenExtension, uses: &mut Uses) -> Result<Sheen, String> {
-    let color = in_unit("sheenColorFactor", sheen.sheen_color_factor)?;
-    let [roughness] = in_unit("sheenRoughnessFactor", [sheen.sheen_roughness_factor])?;
     uses.add("sheenColorTexture", TextureSlot::SheenColor, &sheen.sheen_color_texture)?;
     uses.add("sheenRoughnessTexture", TextureSlot::SheenRoughness, &sheen.sheen_roughness_texture)?;
-    Ok(Sheen::new(color.into(), roughness))
+    Ok(Sheen::new(sheen.sheen_color_factor.into(), sheen.sheen_roughness_factor))
 }
 
 fn read_fuzz(fuzz: &Fuzz, uses: &mut Uses) -> Result<Sheen, String> {
-    let [weight] = in_unit("fuzzFactor", [fuzz.fuzz_factor])?;
-    let color = in_unit("fuzzColorFactor", fuzz.fuzz_color_factor)?;
-    let [roughness] = in_unit("fuzzRoughnessFactor", [fuzz.fuzz_roughness_factor])?;
     (uses.slots[TextureSlot::SheenColor as usize], uses.slots[TextureSlot::SheenRoughness as usize]) = (None, None);
     uses.add("fuzzTexture", TextureSlot::SheenWeight, &fuzz.fuzz_texture)?;
     uses.add("fuzzColorTexture", TextureSlot::SheenColor, &fuzz.fuzz_color_texture)?;
     uses.add("fuzzRoughnessTexture", TextureSlot::SheenRoughness, &fuzz.fuzz_roughness_texture)?;
-    Ok(Sheen { weight, ..Sheen::new(color.into(), roughness) })
+    Ok(Sheen { weight: fuzz.fuzz_factor, ..Sheen::new(fuzz.fuzz_color_factor.into(), fuzz.fuzz_roughness_factor) })
 }
 
-fn in_unit<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
-    in_range(name, values, 0.0..=1.0)
-}
-
-fn in_range<const N: usize>(name: &str, values: [f32; N], range: RangeInclusive<f32>) -> Result<[f32; N], String> {
-    let (start, end) = (*range.start(), *range.end());
-    match values.iter().find(|value| !range.contains(value)) {
+/// Numbers that the file has are finite, but 32 bits may not hold them.
+fn finite<const N: usize>(name: &str, values: [f32; N]) -> Result<[f32; N], String> {
+    match values.iter().find(|value| !value.is_finite()) {
         None => Ok(values),
-        Some(value) if start == f32::MIN => Err(format!("{name} is {value}; give a finite number")),
-        Some(value) if end == f32::MAX => Err(format!("{name} is {value}; give a finite number from {start} up")),
-        Some(value) => Err(format!("{name} is {value}; give a number in [{start}, {end}]")),
+        Some(value) => Err(format!("{name} is {value}; give a number that 32-bit floats can hold")),
     }
 }

@@ -13,8 +13,10 @@ mod cameras;
 mod container;
 mod elements;
 mod extensions;
+mod factors;
 mod images;
 mod json;
+
 mod material_extensions;
 mod materials;
 mod nodes;
@@ -26,6 +28,7 @@ mod skins;
 mod tests;
 mod texture_uses;
 mod textures;
+mod uri;
 
 use std::path::Path;
 
@@ -71,7 +74,8 @@ pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
 
 /// What the file holds, and what there is to say about it.
 fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
-    let document = container::parse(bytes)?;
+    let mut notices = Notices::default();
+    let document = container::parse(bytes, &mut notices)?;
     let root = &document.root;
     check_extensions(root)?;
     let buffers = buffers::load(&document, folder)?;
@@ -79,7 +83,6 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> 
     accessors.check()?;
     references::check(root)?;
     let placed = nodes::place(root)?;
-    let mut notices = Notices::default();
     extensions::note(root, &mut notices);
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
     scene.cameras = cameras::read(root, &placed, &mut notices)?;

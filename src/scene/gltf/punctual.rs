@@ -1,6 +1,6 @@
 //! KHR_lights_punctual: lights without extent.
 
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::{DVec3, Vec3};
 use gltf::json::Root;
@@ -30,21 +30,38 @@ struct Light {
     #[serde(default = "one")]
     intensity: f32,
     r#type: String,
-    range: Option<f32>,
+    range: Option<f64>,
     #[serde(default)]
     spot: Spot,
 }
 
+/// Angles as the file's numbers: they may differ by less than 32-bit floats tell apart.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 struct Spot {
-    inner_cone_angle: f32,
-    outer_cone_angle: f32,
+    inner_cone_angle: f64,
+    outer_cone_angle: f64,
 }
 
 impl Default for Spot {
     fn default() -> Self {
         Self { inner_cone_angle: 0.0, outer_cone_angle: FRAC_PI_4 }
+    }
+}
+
+impl Spot {
+    fn read(&self, range: f32, place: &str, notices: &mut Notices) -> Result<PunctualKind, String> {
+        let &Self { inner_cone_angle: inner, outer_cone_angle: outer } = self;
+        // Half pi as 32-bit floats have it is a little more than half pi, and no less well meant.
+        let ends = outer <= f64::from(FRAC_PI_2 as f32);
+        if !(0.0 <= inner && inner <= outer && 0.0 < outer && ends) {
+            let what = "give 0 <= innerConeAngle < outerConeAngle <= pi / 2";
+            return Err(format!("innerConeAngle is {inner} and outerConeAngle {outer}; {what}"));
+        }
+        if inner == outer {
+            notices.add("a spot whose cones are equal has a hard edge", || place.to_owned());
+        }
+        Ok(PunctualKind::Spot { range, inner: inner as f32, outer: (outer as f32).max(f32::MIN_POSITIVE) })
     }
 }
 
@@ -73,23 +90,21 @@ pub fn radiance(color: [f32; 3], intensity: f32) -> Result<Vec3, String> {
 
 impl Light {
     /// The light at the origin, or what is wrong with it.
-    fn read(&self) -> Result<PunctualLight, String> {
+    fn read(&self, place: &str, notices: &mut Notices) -> Result<PunctualLight, String> {
         let intensity = radiance(self.color, self.intensity)?;
-        let range = self.range.unwrap_or(f32::INFINITY);
-        if range.is_nan() || range <= 0.0 || self.range == Some(f32::INFINITY) {
-            return Err(format!("range is {range}; give a finite number above 0"));
-        }
+        let range = match self.range {
+            None => f32::INFINITY,
+            Some(0.0) => {
+                notices.add("a light's range of 0 is taken as none", || place.to_owned());
+                f32::INFINITY
+            }
+            Some(range) if range < 0.0 => return Err(format!("range is {range}; give a number above 0")),
+            Some(range) => (range as f32).max(f32::MIN_POSITIVE),
+        };
         let kind = match self.r#type.as_str() {
             "point" => PunctualKind::Point { range },
             "directional" => PunctualKind::Directional,
-            "spot" => {
-                let &Spot { inner_cone_angle: inner, outer_cone_angle: outer } = &self.spot;
-                if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2) {
-                    let what = "give 0 <= innerConeAngle < outerConeAngle <= pi / 2";
-                    return Err(format!("innerConeAngle is {inner} and outerConeAngle {outer}; {what}"));
-                }
-                PunctualKind::Spot { range, inner, outer }
-            }
+            "spot" => self.spot.read(range, place, notices)?,
             _ => return Err("type is none of directional, point, spot; give one of them".to_owned()),
         };
         let name = cut(self.name.as_deref().unwrap_or_default());
@@ -101,11 +116,11 @@ impl Light {
 /// whether placed or not.
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<PunctualLight>, Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
-    let read = |(index, light): (usize, &Light)| {
+    let mut read = |(index, light): (usize, &Light)| {
         let place = format_args!("{EXTENSION}: {}", label("light", index, light.name.as_deref())).to_string();
-        light.read().map_err(|what| Fault::at(place, what))
+        light.read(&place, notices).map_err(|what| Fault::at(&place, what))
     };
-    let lights: Vec<PunctualLight> = lights.iter().enumerate().map(read).collect::<Result<_, _>>()?;
+    let lights: Vec<PunctualLight> = lights.iter().enumerate().map(&mut read).collect::<Result<_, _>>()?;
     let of_nodes = extensions::lights_of_nodes(root, EXTENSION, lights.len())?;
     let mut found = Vec::new();
     for &Placed { node, world_from_node, .. } in placed {
