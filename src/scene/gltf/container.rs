@@ -3,6 +3,7 @@
 use gltf::json::Root;
 
 use super::Fault;
+use super::exact::Exact;
 use super::json::parse_json;
 use crate::scene::notices::Notices;
 
@@ -14,6 +15,7 @@ const GLB_HEADER: usize = 12;
 /// The parts of a file. All values have the right types; nothing else is known about them.
 pub struct Document<'a> {
     pub root: Root,
+    pub exact: Exact,
     /// The buffer within a .glb.
     pub binary: Option<&'a [u8]>,
 }
@@ -24,7 +26,8 @@ pub fn parse<'a>(bytes: &'a [u8], notices: &mut Notices) -> Result<Document<'a>,
         return Err(Fault::new("the file is empty; give a .gltf or .glb file"));
     }
     let (json, binary) = if bytes.starts_with(b"glTF") { split_glb(bytes)? } else { (bytes, None) };
-    Ok(Document { root: parse_json(json, notices)?, binary })
+    let (root, exact) = parse_json(json, notices)?;
+    Ok(Document { root, exact, binary })
 }
 
 /// The JSON and, where there is one, the binary chunk.

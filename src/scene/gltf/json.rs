@@ -3,6 +3,7 @@
 use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
+use super::exact::Exact;
 use super::{Fault, factors};
 use crate::scene::notices::Notices;
 
@@ -41,7 +42,7 @@ const INDICES: [&str; 24] = [
 const WHOLE_MAX: f64 = (1u64 << 53) as f64;
 
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
-pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<Root, Fault> {
+pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<(Root, Exact), Fault> {
     let json = bare(text);
     let mut value: Value = serde_json::from_slice(json).map_err(|error| match is_object(json) {
         true => Fault::new(format_args!("its JSON is broken ({error}); correct it or export the file again")),
@@ -63,14 +64,15 @@ pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<Root, Fault> {
     }
     factors::mend(root, notices);
     let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
-    serde_path_to_error::deserialize(value).map_err(wrong)
+    let root = serde_path_to_error::deserialize(&value).map_err(wrong)?;
+    Ok((root, serde_path_to_error::deserialize(value).map_err(wrong)?))
 }
 
 /// The text without a byte order mark, which readers may ignore (RFC 8259, section 8.1), and without zeros at its end,
 /// by which some pad the JSON of a .glb in place of spaces.
 fn bare(text: &[u8]) -> &[u8] {
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    let padding = text.iter().rev().take_while(|&&byte| byte == 0).count();
+    let padding = text.iter().rev().take_while(|byte| **byte == 0 || byte.is_ascii_whitespace()).count();
     &text[..text.len() - padding]
 }
 

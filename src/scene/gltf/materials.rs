@@ -36,7 +36,8 @@ fn read_one(material: &json::Material, textures: usize) -> Result<Material, Stri
     let mut uses = Uses::new(textures);
     let mut read = read_core(material, &mut uses)?;
     read_layers(others, &mut read, &mut uses)?;
-    read.emission *= emissive_strength(material)?;
+    let emission = read.emission * emissive_strength(material)?;
+    read.emission = finite("emissiveFactor x emissiveStrength", emission.into())?.into();
     read.textures = uses.slots;
     if others.contains_key(extensions::UNLIT) {
         // Nothing but the base colour counts.

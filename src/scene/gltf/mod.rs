@@ -12,6 +12,7 @@ mod buffers;
 mod cameras;
 mod container;
 mod elements;
+mod exact;
 mod extensions;
 mod factors;
 mod images;
@@ -76,16 +77,16 @@ pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
 fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
     let mut notices = Notices::default();
     let document = container::parse(bytes, &mut notices)?;
-    let root = &document.root;
+    let (root, exact) = (&document.root, &document.exact);
     check_extensions(root)?;
     let buffers = buffers::load(&document, folder)?;
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
     references::check(root)?;
-    let placed = nodes::place(root)?;
+    let placed = nodes::place(root, exact, &mut notices)?;
     extensions::note(root, &mut notices);
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
-    scene.cameras = cameras::read(root, &placed, &mut notices)?;
+    scene.cameras = cameras::read(root, exact, &placed, &mut notices)?;
     scene.punctual_lights = punctual::read(root, &placed, &mut notices)?;
     Assembly::new(accessors, &mut scene, &mut notices).add(&placed)?;
     area::add(root, &placed, &mut scene, &mut notices)?;

@@ -1,11 +1,12 @@
 //! The tree of nodes: checked to be one, then walked.
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-use gltf::json::scene::Node;
-use gltf::json::{Index, Root};
+use gltf::json::Root;
 
 use super::Fault;
+use super::exact::{self, Exact};
 use crate::scene::error::label;
+use crate::scene::notices::Notices;
 
 /// How far a rotation's length may be from 1 before it is normalised: far more than exporters that round need.
 const ROTATION_TOLERANCE: f64 = 1e-2;
@@ -26,25 +27,33 @@ pub fn node_label(root: &Root, index: usize) -> String {
 
 /// The nodes of the default scene, else of the first, else, where there is no scene, all nodes: parents before
 /// children, siblings in the file's order. All nodes are checked, whether in the scene or not.
-pub fn place(root: &Root) -> Result<Vec<Placed>, Fault> {
+pub fn place(root: &Root, exact: &Exact, notices: &mut Notices) -> Result<Vec<Placed>, Fault> {
     let parents = parents(root)?;
-    let local = root
+    let local = exact
         .nodes
         .iter()
         .enumerate()
         .map(|(index, node)| parent_from_node(node).map_err(|what| Fault::at(node_label(root, index), what)));
     let local: Vec<Local> = local.collect::<Result<_, _>>()?;
-    let roots = scene_roots(root, &parents)?;
+    let mut is_listed = vec![false; parents.len()];
+    let mut roots = listed(root, &parents, notices)?;
+    roots.iter().for_each(|&node| is_listed[node] = true);
+    // Below other roots there may be nodes that are listed though they are none: parents count, in the scene or not.
+    roots.retain(|&node| parents[node].is_none());
+    roots.extend((0..parents.len()).filter(|&node| parents[node].is_none() && !is_listed[node]));
     // Not by recursion: chains of nodes may be of any length.
     let start = Local { transform: DAffine3::IDENTITY, rotation: DQuat::IDENTITY };
-    let mut open: Vec<(usize, Local)> = roots.into_iter().rev().map(|node| (node, start)).collect();
+    let mut open: Vec<(usize, Local, bool)> = roots.into_iter().rev().map(|node| (node, start, false)).collect();
     let mut placed = Vec::new();
-    while let Some((node, above)) = open.pop() {
+    while let Some((node, above, is_below_listed)) = open.pop() {
         let (transform, rotation) =
             (above.transform * local[node].transform, (above.rotation * local[node].rotation).normalize());
-        placed.push(Placed { node, world_from_node: transform, rotation });
+        let is_in_scene = is_below_listed || is_listed[node];
+        if is_in_scene {
+            placed.push(Placed { node, world_from_node: transform, rotation });
+        }
         let children = root.nodes[node].children.iter().flatten().rev();
-        open.extend(children.map(|child| (child.value(), Local { transform, rotation })));
+        open.extend(children.map(|child| (child.value(), Local { transform, rotation }, is_in_scene)));
     }
     Ok(placed)
 }
@@ -90,32 +99,38 @@ fn cycle(parents: &[Option<usize>]) -> Option<usize> {
     None
 }
 
-fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Result<Vec<usize>, Fault> {
-    let check = |scene: usize, nodes: &[Index<Node>]| {
-        let place = || label("scene", scene, root.scenes[scene].name.as_deref());
-        let mut listed = vec![false; parents.len()];
-        for node in nodes {
-            let what = match parents.get(node.value()) {
-                None => format!("there is no node {node}; export the file again"),
-                Some(Some(parent)) => format!("node {node} is no root: it is a child of node {parent}; list its root"),
-                Some(None) if std::mem::replace(&mut listed[node.value()], true) => {
-                    format!("lists node {node} twice; list it once")
-                }
-                Some(None) => continue,
-            };
-            return Err(Fault::at(place(), what));
-        }
-        Ok(())
-    };
-    root.scenes.iter().enumerate().try_for_each(|(index, scene)| check(index, &scene.nodes))?;
-    let wanted = root.scene.map(|scene| scene.value());
-    match (wanted, root.scenes.get(wanted.unwrap_or(0))) {
-        (_, Some(scene)) => Ok(scene.nodes.iter().map(|node| node.value()).collect()),
-        (None, None) => Ok((0..parents.len()).filter(|&node| parents[node].is_none()).collect()),
-        (Some(index), None) => {
-            Err(Fault::at("scene", format_args!("there is no scene {index}; name one of the file's")))
+/// The nodes that the scene lists, each once, after a check of all scenes. They should be roots.
+fn listed(root: &Root, parents: &[Option<usize>], notices: &mut Notices) -> Result<Vec<usize>, Fault> {
+    let place = |scene: usize| label("scene", scene, root.scenes[scene].name.as_deref());
+    let count = parents.len();
+    for (index, scene) in root.scenes.iter().enumerate() {
+        if let Some(node) = scene.nodes.iter().find(|node| node.value() >= count) {
+            return Err(Fault::at(place(index), format_args!("there is no node {node}; export the file again")));
         }
     }
+    let wanted = root.scene.map(|scene| scene.value());
+    let index = wanted.unwrap_or(0);
+    let scene = match (wanted, root.scenes.get(index)) {
+        (_, Some(scene)) => scene,
+        (None, None) => return Ok((0..count).filter(|&node| parents[node].is_none()).collect()),
+        (Some(_), None) => {
+            return Err(Fault::at("scene", format_args!("there is no scene {index}; name one of the file's")));
+        }
+    };
+    let mut known = vec![false; count];
+    let mut nodes: Vec<usize> = scene.nodes.iter().map(|node| node.value()).collect();
+    nodes.retain(|&node| {
+        let place = || format!("{} of {}", node_label(root, node), place(index));
+        let is_known = std::mem::replace(&mut known[node], true);
+        if is_known {
+            notices.add("nodes that a scene lists twice are drawn once", place);
+        } else if parents[node].is_some() {
+            let kind = "nodes that a scene lists and that stand below others are drawn where they stand";
+            notices.add(kind, place);
+        }
+        !is_known
+    });
+    Ok(nodes)
 }
 
 /// A transform, and the rotation in it.
@@ -126,7 +141,7 @@ struct Local {
 }
 
 /// A node's own transform, or what is wrong with it.
-fn parent_from_node(node: &Node) -> Result<Local, String> {
+fn parent_from_node(node: &exact::Node) -> Result<Local, String> {
     let has_parts = node.translation.is_some() || node.rotation.is_some() || node.scale.is_some();
     if let Some(matrix) = &node.matrix {
         if has_parts {
@@ -135,14 +150,9 @@ fn parent_from_node(node: &Node) -> Result<Local, String> {
         let transform = affine(matrix)?;
         return Ok(Local { transform, rotation: rotation_of(transform) });
     }
-    let vector =
-        |name: &str, value: Option<[f32; 3]>, default: DVec3| match value.map(|v| DVec3::from(v.map(f64::from))) {
-            Some(vector) if !vector.is_finite() => Err(format!("{name} is {vector}; give finite numbers")),
-            vector => Ok(vector.unwrap_or(default)),
-        };
-    let translation = vector("translation", node.translation, DVec3::ZERO)?;
-    let scale = vector("scale", node.scale, DVec3::ONE)?;
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, |rotation| DQuat::from_array(rotation.0.map(f64::from)));
+    let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
+    let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let length = rotation.length();
     if !((1.0 - ROTATION_TOLERANCE)..=(1.0 + ROTATION_TOLERANCE)).contains(&length) {
         return Err(format!("rotation is a quaternion of length {length}; give one of length 1"));
@@ -161,11 +171,8 @@ fn rotation_of(transform: DAffine3) -> DQuat {
     rotation.unwrap_or(DQuat::IDENTITY)
 }
 
-fn affine(matrix: &[f32; 16]) -> Result<DAffine3, String> {
-    if let Some(value) = matrix.iter().find(|value| !value.is_finite()) {
-        return Err(format!("its matrix holds {value}; give finite numbers"));
-    }
-    let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
+fn affine(matrix: &[f64; 16]) -> Result<DAffine3, String> {
+    let matrix = DMat4::from_cols_array(matrix);
     let last = matrix.row(3);
     if (last - glam::DVec4::W).abs().max_element() > 1e-6 {
         return Err(format!("the last row of its matrix is {last}, no affine transform's; make it 0, 0, 0, 1"));

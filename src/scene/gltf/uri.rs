@@ -55,9 +55,6 @@ pub fn path(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
             _ => segments.push(name),
         }
     }
-    if segments.is_empty() {
-        return Err(refuse("names no file; name one beside the scene"));
-    }
     Ok(segments.iter().fold(folder.to_owned(), |path, segment| path.join(segment.as_ref())))
 }
 

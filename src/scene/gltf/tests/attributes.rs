@@ -24,7 +24,7 @@ pub fn textured(uses: &[(TextureSlot, usize)]) -> Material {
 pub fn mesh_of(file: &Builder, material: &Material) -> Result<(Mesh, Vec<String>), String> {
     let glb = file.glb();
     let mut notices = Notices::default();
-    let document = container::parse(&glb).map_err(|fault| fault.to_string())?;
+    let document = container::parse(&glb, &mut notices).map_err(|fault| fault.to_string())?;
     let buffers = buffers::load(&document, None).map_err(|fault| fault.to_string())?;
     let accessors = Accessors { root: &document.root, buffers: &buffers };
     accessors.check().map_err(|fault| fault.to_string())?;

@@ -240,7 +240,13 @@ pub fn check(scene: &Scene) {
         match light.kind {
             PunctualKind::Point { range } => assert!(range > 0.0),
             PunctualKind::Spot { range, inner, outer } => {
-                assert!(range > 0.0 && 0.0 <= inner && inner < outer && outer <= std::f32::consts::FRAC_PI_2);
+                assert!(
+                    range > 0.0
+                        && 0.0 <= inner
+                        && inner <= outer
+                        && 0.0 < outer
+                        && outer <= std::f32::consts::FRAC_PI_2
+                );
             }
             PunctualKind::Directional => {}
         }

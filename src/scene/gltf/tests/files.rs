@@ -78,8 +78,8 @@ fn buffers_beside_the_scene() {
         ("%ff.bin", "not UTF-8"),
         ("https://example.com/cloth.bin", "scheme"),
         ("file:///etc/passwd", "scheme"),
-        ("data:application/octet-stream,abc", "not base64"),
-        ("data:application/octet-stream;base64", "not base64"),
+        ("data:application/octet-stream,abc", "3 bytes long"),
+        ("data:application/octet-stream;base64", "no comma"),
         ("data:application/octet-stream;base64,A*", "data URI is broken"),
         ("data:application/octet-stream;base64,AAAA", "3 bytes long"),
     ] {
