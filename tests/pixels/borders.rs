@@ -55,6 +55,22 @@ fn a_point_light_a_millimetre_away_is_as_bright_as_its_distance_says() {
     assert!((lit / expected - 1.0).abs() < 0.01, "{lit} for {expected}");
 }
 
+/// The cone's edge passes a little beside the middle of the picture: within it, all light arrives, and past it none.
+#[test]
+fn a_spot_whose_cones_are_equal_has_a_hard_edge() {
+    let angle = 0.1f32;
+    for (off_axis, share) in [(0.0, 1.0), (angle - 1e-4, 1.0), (angle + 1e-4, 0.0)] {
+        let floor = Thing::rectangle([1.0, 1.0], plain()).placed(facing(ORIGIN, UP));
+        let mut stage = Stage::new(vec![floor], looking(UP, ORIGIN));
+        let kind = PunctualKind::Spot { range: f32::INFINITY, inner: angle, outer: angle };
+        let direction = Vec3::new(off_axis.sin(), -off_axis.cos(), 0.0);
+        stage.punctual.push(PunctualLight { kind, direction, ..point_light(2.0 * Vec3::Y) });
+        let expected = share * 0.25 / std::f32::consts::PI;
+        let lit = middle(stage, &diffuse_alone());
+        assert!((lit - expected).abs() < 1e-5, "{off_axis} rad off the axis: {lit} for {expected}");
+    }
+}
+
 #[test]
 fn back_faces_are_lit_by_lights_without_extent_behind_them() {
     let material = Material { specular: 1.0, roughness: 0.5, double_sided: true, ..velvet([0.9, 0.5, 0.2], 0.4) };

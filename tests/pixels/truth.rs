@@ -278,7 +278,7 @@ fn arriving(light: &PunctualLight, p_world: DVec3) -> (DVec3, DVec3) {
         PunctualKind::Spot { range, inner, outer } => {
             let cosine = direction.dot(-way.normalize());
             let (inner, outer) = (f64::from(inner).cos(), f64::from(outer).cos());
-            let cone = ((cosine - outer) / (inner - outer).max(1e-3)).clamp(0.0, 1.0).powi(2);
+            let cone = ((cosine - outer) / (inner - outer).max(1e-9)).clamp(0.0, 1.0).powi(2);
             (way.normalize(), intensity * falloff(range) * cone)
         }
     }
