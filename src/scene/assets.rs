@@ -1,6 +1,6 @@
 //! The scenes that the program carries, so that it runs from any folder.
 
-use super::gltf;
+use super::gltf::{self, Options};
 use super::{Scene, SceneError};
 
 /// A .glb file in the program.
@@ -20,6 +20,6 @@ pub static DUST: Asset = Asset { name: "dust.glb", bytes: include_bytes!("../../
 impl Asset {
     /// Reads the scene.
     pub fn load(&self) -> Result<Scene, SceneError> {
-        gltf::from_slice(self.bytes, self.name)
+        gltf::from_slice(self.bytes, self.name, &Options::default())
     }
 }

@@ -42,6 +42,11 @@ pub struct Material {
 }
 
 impl Material {
+    /// Whether it glows all over. What has an emissive texture counts as lit, for perhaps only a small part of it glows.
+    pub fn is_lamp(&self) -> bool {
+        self.emission != Vec3::ZERO && self.texture(TextureSlot::Emission).is_none()
+    }
+
     /// A diffuse surface: no specular reflection, no sheen, no light of its own.
     pub fn matte(name: impl Into<String>, base_color: Vec3) -> Self {
         Self {

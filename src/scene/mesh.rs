@@ -39,18 +39,23 @@ impl Instance {
     /// Takes the mesh's normals to the world's, up to a positive factor: the inverse transpose of the transform, scaled
     /// so that its largest entry is 1 or -1. Finite whatever the transform's scale.
     pub fn world_from_normal(&self) -> Mat3 {
-        let matrix = DMat3::from_mat4(self.world_from_mesh.as_dmat4());
-        let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * matrix.determinant().signum();
-        let largest =
-            cofactors.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |largest, entry| largest.max(entry.abs()));
-        (cofactors * largest.recip()).as_mat3()
+        normal_matrix(DMat3::from_mat4(self.world_from_mesh.as_dmat4())).as_mat3()
     }
 
     /// Whether the transform mirrors the mesh: by winding, front faces are then back faces.
     pub fn mirrors(&self) -> bool {
         DMat3::from_mat4(self.world_from_mesh.as_dmat4()).determinant() < 0.0
     }
+}
+
+/// Takes normals where a matrix takes the surface, up to a positive factor: the matrix's inverse transpose, scaled so
+/// that its largest entry is 1 or -1. Finite whatever the matrix; zero where that leaves less than a plane.
+pub(super) fn normal_matrix(matrix: DMat3) -> DMat3 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * matrix.determinant().signum();
+    let largest =
+        cofactors.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |largest, entry| largest.max(entry.abs()));
+    cofactors * largest.recip()
 }
 
 #[cfg(test)]

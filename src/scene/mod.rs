@@ -34,7 +34,7 @@ mod texture;
 
 use std::path::PathBuf;
 
-use glam::Vec3;
+use glam::DVec3;
 
 pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
@@ -55,6 +55,9 @@ pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from
 /// Indices from one part into another are valid: whoever makes a `Scene` sees to that.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
+    /// Where the scene's origin stands in its file, in metres: all positions are counted from it. The file's own origin,
+    /// unless the subject is several times its size away from that.
+    pub origin: DVec3,
     /// Triangles in their own space, one mesh per glTF primitive.
     pub meshes: Vec<Mesh>,
     /// Meshes placed in the world.
@@ -90,12 +93,9 @@ impl Scene {
         self.bounds_of(|_| true)
     }
 
-    /// A box around what is lit: all instances that do not glow, or all of them where everything glows. What has an
-    /// emissive texture counts as lit, for perhaps only a small part of it glows.
+    /// A box around what is lit: all instances that are no lamps, or all of them where everything is.
     pub fn subject(&self) -> Bounds {
-        let is_lamp =
-            |material: &Material| material.emission != Vec3::ZERO && material.texture(TextureSlot::Emission).is_none();
-        let lit = self.bounds_of(|material| !is_lamp(material));
+        let lit = self.bounds_of(|material| !material.is_lamp());
         if lit == Bounds::EMPTY { self.bounds() } else { lit }
     }
 

@@ -77,7 +77,11 @@ mod tests {
     impl Desk {
         /// After the first frames.
         fn settled() -> Self {
-            let state = State::new("drape.glb", gltf::load(DRAPE.as_ref()).unwrap(), Edits::default());
+            let state = State::new(
+                "drape.glb",
+                gltf::load(DRAPE.as_ref(), &gltf::Options::default()).unwrap(),
+                Edits::default(),
+            );
             let mut desk = Self { context: egui::Context::default(), state, screen: Screen::new(), time: 0.0 };
             assert!(desk.screen.is_stale());
             desk.settle(vec![]);

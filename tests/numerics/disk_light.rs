@@ -11,7 +11,7 @@ fn disk() -> Vec<DVec3> {
     let node = r#"{"extensions":{"EXT_lights_area":{"light":0}}}"#;
     let gltf =
         format!(r#"{{"asset":{{"version":"2.0"}},"extensions":{{"EXT_lights_area":{light}}},"nodes":[{node}]}}"#);
-    let scene = velour::scene::gltf::from_slice(gltf.as_bytes(), "disk").unwrap();
+    let scene = velour::scene::gltf::from_slice(gltf.as_bytes(), "disk", &Default::default()).unwrap();
     scene.lights[0].polygons[0].contours[0].iter().map(|corner| corner.as_dvec3()).collect()
 }
 

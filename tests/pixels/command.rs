@@ -202,6 +202,6 @@ fn a_scene_alone_comes_with_its_notices() {
 fn the_file_and_the_library_give_the_same_picture() {
     let bench = Bench::new();
     bench.run(&format!("render scene.glb -o out.exr {MEASURED}"));
-    let scene = gltf::load(&bench.path("scene.glb")).unwrap();
+    let scene = gltf::load(&bench.path("scene.glb"), &gltf::Options::default()).unwrap();
     assert_eq!(exr(&bench, "out.exr"), linear(&scene, &SheenTable::embedded(), &sheen_alone(), [96, 64]));
 }

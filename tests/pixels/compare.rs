@@ -55,7 +55,7 @@ pub fn linear(scene: &Scene, table: &SheenTable, edits: &Edits, size: [u32; 2]) 
 pub fn hold(stage: &Stage, edits: &Edits) {
     let table = SheenTable::embedded();
     let truth = Truth::new(stage, &table, edits, SIZE);
-    let read = gltf::from_slice(&stage.glb(), "stage.glb").unwrap();
+    let read = gltf::from_slice(&stage.glb(), "stage.glb", &gltf::Options::default()).unwrap();
     assert_eq!(read.notices, [""; 0]);
     for (way, scene) in [("made", stage.scene()), ("read", read)] {
         let picture = linear(&scene, &table, edits, SIZE);

@@ -29,7 +29,7 @@ fn golden(name: &str) -> PathBuf {
 }
 
 fn render(name: &str) -> DisplayImage {
-    let scene = gltf::load(&root().join("assets").join(name).with_extension("glb")).unwrap();
+    let scene = gltf::load(&root().join("assets").join(name).with_extension("glb"), &gltf::Options::default()).unwrap();
     GPU.block_on(Offscreen::screenshot(&GPU, &scene, &Edits::default(), SIZE)).unwrap()
 }
 

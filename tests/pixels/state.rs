@@ -42,7 +42,7 @@ fn what_the_viewer_saves_is_what_it_showed() {
     use velour::table::SheenTable;
 
     let bench = Bench::new();
-    let scene = gltf::load(&bench.path("scene.glb")).unwrap();
+    let scene = gltf::load(&bench.path("scene.glb"), &gltf::Options::default()).unwrap();
     let mut orbit = Orbit::new(&scene.cameras[0], scene.subject().center());
     orbit.turn([0.21, -0.04].into());
     orbit.zoom(1.13);

@@ -8,6 +8,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::compare::Compare;
 use crate::figures::Figures;
 use crate::fit::Fit;
+#[cfg(feature = "window")]
+use crate::loading::Loading;
 use crate::reference::Reference;
 #[cfg(feature = "gpu")]
 use crate::render::Render;
@@ -30,6 +32,9 @@ pub struct Arguments {
     /// velvet drape]
     #[cfg(feature = "window")]
     pub scene: Option<std::path::PathBuf>,
+    #[cfg(feature = "window")]
+    #[command(flatten)]
+    pub loading: Loading,
 }
 
 /// Whether the first word of a command line names nothing: no flag, no command, no file that is there.

@@ -30,7 +30,7 @@ impl Inputs {
         let format = Format::of(&arguments.output).map_err(Failure::input)?;
         check_writable(&arguments.output).map_err(Failure::input)?;
         let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
-            let scene = gltf::load(&arguments.scene).map_err(Failure::input)?;
+            let scene = gltf::load(&arguments.scene, &arguments.loading.options()).map_err(Failure::input)?;
             Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
         })?;
         check_apart(&arguments.output, &scene, &arguments.files())?;

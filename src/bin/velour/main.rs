@@ -14,6 +14,7 @@ mod fit;
 mod info;
 mod inputs;
 mod interrupt;
+mod loading;
 mod output;
 mod picture_args;
 mod progress;
@@ -48,7 +49,7 @@ fn main() -> ExitCode {
     };
     let done = match arguments.command {
         #[cfg(feature = "window")]
-        None => view::run_or_render(arguments.scene.as_deref()),
+        None => view::run_or_render(arguments.scene.as_deref(), &arguments.loading.options()),
         #[cfg(not(feature = "window"))]
         None => Err(Failure::input("this build has no viewer: use a command, see `velour --help`")),
         #[cfg(feature = "window")]

@@ -8,6 +8,7 @@ use velour::picture::ToneCurve;
 use velour::scene::{Edits, Layering, Lobes, MaterialEdits, RoughnessMap, SheenModel, Value};
 
 use crate::assignment::{Assignment, assignment};
+use crate::loading::Loading;
 
 /// What to draw, of which scene, and where to.
 #[derive(Args)]
@@ -20,6 +21,8 @@ pub struct PictureArgs {
     /// Pixels, width x height; the camera's vertical field of view is kept whatever the aspect
     #[arg(long, default_value = "1280x720", value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: [u32; 2],
+    #[command(flatten)]
+    pub loading: Loading,
     /// What the viewer has saved: view, picture, materials, lights; flags win over it
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,

@@ -7,12 +7,14 @@ use velour::file::{check_writable, write_atomically};
 use velour::picture::Format;
 use velour::renderer::{Offscreen, RadianceFormat, device};
 use velour::scene::assets::DRAPE;
-use velour::scene::{Edits, Scene, gltf};
+use velour::scene::gltf::{self, Options};
+use velour::scene::{Edits, Scene};
 use velour::table::SheenTable;
 use velour::viewer::ViewerError;
 
 use crate::console::{complain, say};
 use crate::failure::Failure;
+use crate::loading::Loading;
 use crate::output::check_apart;
 use crate::{render, state, without_device};
 
@@ -24,10 +26,12 @@ pub struct View {
     /// What the viewer has saved: view, picture, materials, lights
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,
+    #[command(flatten)]
+    pub loading: Loading,
 }
 
 pub fn run(arguments: &View) -> Result<(), Failure> {
-    let (name, scene) = load(arguments.scene.as_deref())?;
+    let (name, scene) = load(arguments.scene.as_deref(), &arguments.loading.options())?;
     let edits = arguments.state.as_ref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
     render::check_real_time(&edits)?;
     let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
@@ -37,8 +41,8 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
 }
 
 /// The viewer; without a display, or a device that draws on it, the picture that it would show.
-pub fn run_or_render(path: Option<&Path>) -> Result<(), Failure> {
-    let (name, scene) = load(path)?;
+pub fn run_or_render(path: Option<&Path>, options: &Options) -> Result<(), Failure> {
+    let (name, scene) = load(path, options)?;
     let event_loop = match velour::viewer::event_loop() {
         Ok(event_loop) => event_loop,
         Err(no_display) => return render_instead(&no_display, path, &scene, &scene.notices),
@@ -46,7 +50,7 @@ pub fn run_or_render(path: Option<&Path>) -> Result<(), Failure> {
     scene.notices.iter().for_each(complain);
     match velour::viewer::run(event_loop, &name, (scene, Edits::default()), SheenTable::embedded()) {
         // The viewer has kept the scene; what there is to say of it has been said.
-        Err(why @ ViewerError::Device(_)) => render_instead(&why, path, &load(path)?.1, &[]),
+        Err(why @ ViewerError::Device(_)) => render_instead(&why, path, &load(path, options)?.1, &[]),
         shown => shown.map_err(Failure::device),
     }
 }
@@ -63,11 +67,11 @@ fn render_instead(why: &ViewerError, path: Option<&Path>, scene: &Scene, notices
 }
 
 /// The scene in a file, or the default one, and its name.
-fn load(path: Option<&Path>) -> Result<(String, Scene), Failure> {
+fn load(path: Option<&Path>, options: &Options) -> Result<(String, Scene), Failure> {
     let Some(path) = path else {
         return Ok((DRAPE.name.to_owned(), DRAPE.load().map_err(Failure::input)?));
     };
-    Ok((path.display().to_string(), gltf::load(path).map_err(Failure::input)?))
+    Ok((path.display().to_string(), gltf::load(path, options).map_err(Failure::input)?))
 }
 
 /// What `velour render` makes of the scene when no flag is given.

@@ -19,7 +19,7 @@ pub struct Accessors<'a> {
     pub buffers: &'a [Bytes<'a>],
 }
 
-/// Which types of components are accepted for numbers of a kind. Floats always are.
+/// Which types of components are accepted for numbers of a kind. Floats are, unless it says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Numbers {
     /// Only floats.
@@ -30,6 +30,8 @@ pub enum Numbers {
     Signed,
     /// Unsigned integers of 8 or 16 bits, normalized.
     Unsigned,
+    /// Unsigned integers of 8 or 16 bits, as they are, and no floats.
+    Indices,
 }
 
 impl Numbers {
@@ -40,6 +42,7 @@ impl Numbers {
             Self::Quantized => &[F32, I8, U8, I16, U16],
             Self::Signed => &[F32, I8, I16],
             Self::Unsigned => &[F32, U8, U16],
+            Self::Indices => &[U8, U16],
         }
     }
 }
@@ -104,7 +107,11 @@ impl<'a> Accessors<'a> {
     ) -> Result<Vec<T>, Fault> {
         let (accessor, component) = self.expect(index, numbers.components(), kind)?;
         let elements = self.elements(index)?;
-        let is_normalized = accessor.normalized || matches!(numbers, Numbers::Signed | Numbers::Unsigned);
+        let is_normalized = match numbers {
+            Numbers::Signed | Numbers::Unsigned => true,
+            Numbers::Floats | Numbers::Quantized => accessor.normalized,
+            Numbers::Indices => false,
+        };
         let (decode, width) = (decoder(component, is_normalized), component.size());
         let read = |at: usize| {
             let bytes = elements.get(at);

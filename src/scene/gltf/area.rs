@@ -92,7 +92,7 @@ fn disk(radius: f32, sides: u16) -> Vec<Vec2> {
     (0..sides).map(|side| reach * Vec2::from_angle(angle * f32::from(side))).collect()
 }
 
-/// Adds an emitter for each light at the scene's nodes. All lights are checked, whether placed or not.
+/// Adds an emitter for each light at the scene's visible nodes. All lights are checked, whether placed or not.
 pub fn add(root: &Root, placed: &[Placed], scene: &mut Scene, notices: &mut Notices) -> Result<(), Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
     let read = |(index, light): (usize, &Light)| {
@@ -102,7 +102,7 @@ pub fn add(root: &Root, placed: &[Placed], scene: &mut Scene, notices: &mut Noti
     let mut emitters: Vec<Emitter> = lights.iter().enumerate().map(read).collect::<Result<_, _>>()?;
     let of_nodes = extensions::lights_of_nodes(root, EXTENSION, emitters.len())?;
     let mut count = 0;
-    for place in placed {
+    for place in placed.iter().filter(|place| place.is_visible) {
         let Some(emitter) = of_nodes[place.node].map(|light| &mut emitters[light]) else { continue };
         if emitter.radiance == Vec3::ZERO {
             continue;

@@ -1,15 +1,17 @@
 //! A scene's meshes and instances, made from its placed nodes.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
-use glam::{DAffine3, DMat4, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use gltf::json::Root;
 
 use super::accessor::Accessors;
-use super::nodes::{Placed, node_label};
-use super::primitives::Reader;
-use super::skins::Skins;
-use super::{Fault, cut, materials};
+use super::instancing::Places;
+use super::nodes::{Nodes, Placed, node_label};
+use super::primitives::{Reader, Shape, Shaped};
+use super::skins::{Bones, Skins};
+use super::{Fault, Pose, cut, instancing, materials, morph};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Bounds, FARTHEST, Instance, Mesh, Scene};
@@ -20,6 +22,8 @@ const INSTANCES_MAX: usize = 1 << 20;
 const REACH: f64 = FARTHEST as f64;
 /// A transform whose axes, made unit, span less than this volume has no inverse in 32-bit floats.
 const SINGULAR: f64 = 1e-6;
+/// A mesh whose middle is this near to its origin, in lengths of its bounds' diagonal, stays where it is.
+const NEAR: f64 = 2.0;
 /// Shortest axis of a transform in metres: the square of anything shorter is lost in 32-bit floats.
 const SHORTEST: f64 = 1e-18;
 
@@ -29,14 +33,51 @@ pub fn primitive_label(root: &Root, mesh: usize, primitive: usize) -> String {
     format!("{} primitive {primitive}", label("mesh", mesh, name))
 }
 
+/// What the scene's meshes are made of: a mesh of the file, and what shapes it.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Model {
+    mesh: usize,
+    /// The skin by whose joints it is bent.
+    skin: Option<usize>,
+    /// The bits of its morph targets' weights.
+    weights: Vec<u32>,
+}
+
+/// A mesh of the scene where the file puts it.
+pub struct Placement {
+    /// The node's name.
+    pub name: String,
+    /// Index into the scene's meshes.
+    pub mesh: usize,
+    /// To the space of the file.
+    pub world_from_mesh: DAffine3,
+}
+
+/// A primitive of a model.
+#[derive(Clone, Copy)]
+struct Part {
+    /// Index into the scene's meshes.
+    mesh: usize,
+    bounds: Bounds,
+    /// By how much its positions have been moved: from the file's mesh to the scene's is `-center`.
+    center: DVec3,
+    /// Whether it is bound to joints.
+    is_bound: bool,
+    /// Where in the world joints have put the mesh's origin, if they have.
+    origin: Option<DVec3>,
+}
+
 /// Fills a scene.
 pub struct Assembly<'a> {
     root: &'a Root,
     reader: Reader<'a>,
     scene: &'a mut Scene,
     notices: &'a mut Notices,
-    /// What each of the file's meshes has become: indices into the scene's meshes, and their bounds.
-    meshes: HashMap<usize, Vec<(usize, Bounds)>>,
+    /// What each model has become.
+    models: HashMap<Model, Rc<[Part]>>,
+    placements: Vec<Placement>,
+    /// How many primitives have been placed, seen or not.
+    placed: usize,
     default_material: Option<usize>,
 }
 
@@ -44,57 +85,137 @@ impl<'a> Assembly<'a> {
     /// `scene` holds the file's materials already.
     pub fn new(accessors: Accessors<'a>, scene: &'a mut Scene, notices: &'a mut Notices) -> Self {
         let (root, reader) = (accessors.root, Reader::new(accessors));
-        Self { root, reader, scene, notices, meshes: HashMap::new(), default_material: None }
-    }
-
-    /// Adds an instance for each primitive at a node, and the meshes of these instances.
-    pub fn add(mut self, placed: &[Placed]) -> Result<(), Fault> {
-        let mut skins = Skins::new(self.root, placed);
-        for &Placed { node: index, world_from_node, .. } in placed {
-            let node = &self.root.nodes[index];
-            let Some(mesh) = node.mesh else { continue };
-            let skin = node.skin.map(|skin| skins.world_from_mesh(&self.reader.accessors, skin.value())).transpose()?;
-            if skin == Some(None) {
-                let kind = "skins whose joints stand in another pose than they were bound in are not applied";
-                self.notices.add(kind, || node_label(self.root, index));
-            }
-            let world_from_node = skin.flatten().unwrap_or(world_from_node);
-            self.load(mesh.value())?;
-            let wrong = |what: String| Fault::at(node_label(self.root, index), what);
-            for &(mesh, bounds) in &self.meshes[&mesh.value()] {
-                check_reach(world_from_node, bounds.corners()).map_err(wrong)?;
-                if is_singular(world_from_node) {
-                    self.notices.add("things scaled to nothing are not drawn", || node_label(self.root, index));
-                    continue;
-                }
-                if self.scene.instances.len() == INSTANCES_MAX {
-                    return Err(wrong(format!("more than {INSTANCES_MAX} primitives at nodes; split the file")));
-                }
-                let name = cut(node.name.as_deref().unwrap_or_default());
-                let world_from_mesh = DMat4::from(world_from_node).as_mat4();
-                self.scene.instances.push(Instance { name, mesh, world_from_mesh });
-            }
+        Self {
+            root,
+            reader,
+            scene,
+            notices,
+            models: HashMap::new(),
+            placements: Vec::new(),
+            placed: 0,
+            default_material: None,
         }
-        Ok(())
     }
 
-    /// Reads a mesh of the file, unless it has been read already.
-    fn load(&mut self, mesh: usize) -> Result<(), Fault> {
-        if self.meshes.contains_key(&mesh) {
+    /// Adds the meshes at visible nodes, and says where their primitives stand.
+    pub fn add(mut self, nodes: &Nodes, pose: Pose) -> Result<Vec<Placement>, Fault> {
+        let mut skins = Skins::new(self.root, &nodes.stands, pose);
+        for place in nodes.placed.iter().filter(|place| place.is_visible) {
+            let node = &self.root.nodes[place.node];
+            let Some(mesh) = node.mesh.map(|mesh| mesh.value()) else { continue };
+            let weights = match pose {
+                Pose::File => self.weights(place.node, mesh)?,
+                Pose::Bind => &[],
+            };
+            let bones = node.skin.map(|skin| skins.get(&mut self.reader, skin.value())).transpose()?.flatten();
+            let model = Model {
+                mesh,
+                skin: node.skin.map(|skin| skin.value()).filter(|_| matches!(bones, Some(Bones::Bent(_)))),
+                weights: weights.iter().map(|weight| weight.to_bits()).collect(),
+            };
+            let joints = bones.as_ref().and_then(Bones::joints);
+            let parts = self.load(model, Shape { weights, joints })?;
+            self.place(place, &parts, bones.as_ref())?;
+        }
+        Ok(self.placements)
+    }
+
+    /// The weights of the morph targets of a node's mesh.
+    fn weights(&mut self, node: usize, mesh: usize) -> Result<&'a [f32], Fault> {
+        let label = || node_label(self.root, node);
+        let wrong = |what: String| Fault::at(label(), what);
+        let (node, mesh) = (&self.root.nodes[node], &self.root.meshes[mesh]);
+        let weights = morph::weights(node, mesh);
+        // Many nodes may share a mesh's long list.
+        self.reader.charge(size_of_val(weights)).map_err(|fault| wrong(fault.to_string()))?;
+        let count = mesh.primitives.first().map_or(0, morph::count);
+        let is_given = node.weights.is_some() || mesh.weights.is_some();
+        if is_given && weights.len() != count {
+            let kind = "weights and morph targets of different numbers are paired as far as they go";
+            self.notices.add(kind, || format!("{} and {count} of {}", weights.len(), label()));
+        }
+        morph::checked(weights).map_err(wrong)
+    }
+
+    /// Places the primitives of a node's mesh.
+    fn place(&mut self, place: &Placed, parts: &[Part], bones: Option<&Bones>) -> Result<(), Fault> {
+        if parts.is_empty() {
             return Ok(());
         }
-        let mut parts = Vec::new();
-        for (index, primitive) in self.root.meshes[mesh].primitives.iter().enumerate() {
-            let name = primitive_label(self.root, mesh, index);
-            let material = primitive.material.map_or_else(|| self.default_material(), |material| material.value());
-            let read = self.reader.read(primitive, &self.scene.materials[material], name.clone(), self.notices);
-            if let Some(read) = read.map_err(|fault| Fault::at(name, fault))? {
-                parts.push((self.scene.meshes.len(), Bounds::of_points(&read.positions)));
-                self.scene.meshes.push(Mesh { material, ..read });
+        let label = || node_label(self.root, place.node);
+        let most = INSTANCES_MAX.saturating_sub(self.placed) / parts.len();
+        let places = instancing::places(&mut self.reader, place.node, most)?;
+        for &part in parts {
+            // Joints put what is bound to them where it stands, whatever the node.
+            let by_joints = match (bones.filter(|_| part.is_bound), part.origin) {
+                (Some(_), Some(origin)) => Some(DAffine3::from_translation(origin)),
+                (Some(&Bones::Rigid(world_from_mesh)), None) => Some(world_from_mesh),
+                _ => None,
+            };
+            match (by_joints, &places) {
+                (Some(world_from_part), _) => {
+                    if places.is_some() {
+                        self.notices.add("meshes that joints move are drawn once, not at each instance", label);
+                    }
+                    self.push(place.node, part, world_from_part)?;
+                }
+                (None, Some(places)) => self.push_all(place, part, places)?,
+                (None, None) => self.push(place.node, part, place.world_from_node)?,
+            }
+            if by_joints.is_none() && bones.is_some() {
+                self.notices.add("meshes without joints and weights stand at their nodes, whatever the skin", label);
             }
         }
-        self.meshes.insert(mesh, parts);
         Ok(())
+    }
+
+    /// Adds an instance at each place about a node.
+    fn push_all(&mut self, place: &Placed, part: Part, places: &Places) -> Result<(), Fault> {
+        let name = self.root.nodes[place.node].name.as_ref().map_or(0, String::len);
+        let bytes = places.count().saturating_mul(size_of::<Instance>() + name);
+        self.reader.charge(bytes).map_err(|fault| Fault::at(node_label(self.root, place.node), fault))?;
+        places
+            .node_from_instance()
+            .try_for_each(|node_from_instance| self.push(place.node, part, place.world_from_node * node_from_instance))
+    }
+
+    /// Adds an instance, unless its transform leaves nothing of it.
+    fn push(&mut self, node: usize, part: Part, world_from_mesh: DAffine3) -> Result<(), Fault> {
+        let world_from_mesh = world_from_mesh * DAffine3::from_translation(part.center);
+        let wrong = |what: String| Fault::at(node_label(self.root, node), what);
+        check_reach(world_from_mesh, part.bounds.corners()).map_err(wrong)?;
+        if self.placed == INSTANCES_MAX {
+            return Err(wrong(format!("more than {INSTANCES_MAX} primitives at nodes; split the file")));
+        }
+        self.placed += 1;
+        if is_singular(world_from_mesh) {
+            self.notices.add("things scaled to nothing are not drawn", || node_label(self.root, node));
+            return Ok(());
+        }
+        let name = cut(self.root.nodes[node].name.as_deref().unwrap_or_default());
+        self.placements.push(Placement { name, mesh: part.mesh, world_from_mesh });
+        Ok(())
+    }
+
+    /// Reads a model, unless it has been read already.
+    fn load(&mut self, model: Model, shape: Shape) -> Result<Rc<[Part]>, Fault> {
+        if let Some(parts) = self.models.get(&model) {
+            return Ok(Rc::clone(parts));
+        }
+        let mut parts = Vec::new();
+        for (index, primitive) in self.root.meshes[model.mesh].primitives.iter().enumerate() {
+            let name = primitive_label(self.root, model.mesh, index);
+            let material = primitive.material.map_or_else(|| self.default_material(), |material| material.value());
+            let read = self.reader.read(primitive, &self.scene.materials[material], name.clone(), shape, self.notices);
+            if let Some(Shaped { mut mesh, is_bound, origin }) = read.map_err(|fault| Fault::at(name, fault))? {
+                let (center, bounds) = center(&mut mesh);
+                parts.push(Part { mesh: self.scene.meshes.len(), bounds, center, is_bound, origin });
+                self.scene.meshes.push(Mesh { material, ..mesh });
+            }
+        }
+        let parts: Rc<[Part]> = parts.into();
+        self.models.insert(model, Rc::clone(&parts));
+        Ok(parts)
     }
 
     fn default_material(&mut self) -> usize {
@@ -103,6 +224,18 @@ impl<'a> Assembly<'a> {
             self.scene.materials.len() - 1
         })
     }
+}
+
+/// Moves a mesh that is far from its own origin to it: how far, and the bounds that it has there. Transforms in `f32` would
+/// lose of it what its coordinates still tell apart.
+fn center(mesh: &mut Mesh) -> (DVec3, Bounds) {
+    let bounds = Bounds::of_points(&mesh.positions);
+    let center = bounds.center().as_dvec3();
+    if center.abs().max_element() <= NEAR * bounds.diagonal() {
+        return (DVec3::ZERO, bounds);
+    }
+    mesh.positions.iter_mut().for_each(|position| *position = (position.as_dvec3() - center).as_vec3());
+    (center, Bounds::of_points(&mesh.positions))
 }
 
 /// Checks that `points`, once placed, stand where 32-bit floats can work with them; else says what is wrong.

@@ -7,10 +7,12 @@ use gltf::json::validation::Checked::Valid;
 
 use super::Fault;
 use super::accessor::{Accessors, Numbers};
+use super::skinning::Influences;
 use crate::scene::notices::Notices;
-use crate::scene::{Material, TextureSlot, TextureUse};
+use crate::scene::{Material, Mesh, TextureSlot, TextureUse};
 
-const WHITE: [u16; 4] = [u16::MAX; 4];
+/// The colour that changes nothing.
+pub const WHITE: [u16; 4] = [u16::MAX; 4];
 
 /// The accessors of those of a primitive's attributes that its material needs.
 pub struct Attributes {
@@ -20,6 +22,8 @@ pub struct Attributes {
     tangents: Option<usize>,
     tex_coords: [Option<usize>; 2],
     colors: Option<usize>,
+    /// Sets of up to four joints and their weights, by which a skin moves the vertices.
+    pub influences: Vec<[usize; 2]>,
     /// The material's normal map.
     pub normal_map: Option<TextureUse>,
 }
@@ -49,6 +53,7 @@ impl Attributes {
             tangents: normals.and(normal_map).and_then(|_| get(Semantic::Tangents)),
             tex_coords,
             colors: get(Semantic::Colors(0)),
+            influences: influences(primitive),
             normal_map,
         })
     }
@@ -64,8 +69,10 @@ impl Attributes {
             ("texture coordinates", second),
             ("colors", self.colors),
         ];
-        for (name, accessor) in others {
-            let own = accessor.map_or(Ok(count), |accessor| accessors.count(accessor))?;
+        let others = others.into_iter().filter_map(|(name, accessor)| Some((name, accessor?)));
+        let pairs = self.influences.iter().flat_map(|&[joints, weights]| [("joints", joints), ("weights", weights)]);
+        for (name, accessor) in others.chain(pairs) {
+            let own = accessors.count(accessor)?;
             if own != count {
                 return Err(Fault::new(format_args!("has {count} positions and {own} {name}; export it again")));
             }
@@ -73,7 +80,7 @@ impl Attributes {
         Ok(count)
     }
 
-    /// Bytes in memory for each vertex.
+    /// Bytes in memory for each vertex, besides what moves it.
     pub fn vertex_bytes(&self) -> usize {
         let coords = self.tex_coords.iter().flatten().count() * size_of::<Vec2>();
         let tangents = self.normal_map.map_or(0, |_| size_of::<Vec4>());
@@ -85,28 +92,58 @@ impl Attributes {
         self.normals.is_none() || self.normal_map.is_some()
     }
 
-    pub fn read_tex_coords(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<[Vec<Vec2>; 2], Fault> {
-        let read = |set: Option<usize>| {
-            set.map_or(Ok(Vec::new()), |set| accessors.read(set, Type::Vec2, Numbers::Quantized, used))
+    /// The vertices of a mesh that is nothing else yet, as the file has them: normals and tangents of any length, empty
+    /// where there are none.
+    pub fn read(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Mesh, Fault> {
+        let mut mesh = Mesh {
+            positions: accessors.read(self.positions, Type::Vec3, Numbers::Quantized, used)?,
+            colors: self.read_colors(accessors, used)?,
+            ..Mesh::default()
         };
-        Ok([read(self.tex_coords[0])?, read(self.tex_coords[1])?])
+        if let Some(normals) = self.normals {
+            mesh.normals = accessors.read(normals, Type::Vec3, Numbers::Signed, used)?;
+        }
+        if let Some(tangents) = self.tangents {
+            mesh.tangents = accessors.read(tangents, Type::Vec4, Numbers::Signed, used)?;
+        }
+        for (coords, accessor) in mesh.tex_coords.iter_mut().zip(self.tex_coords) {
+            if let Some(accessor) = accessor {
+                *coords = accessors.read(accessor, Type::Vec2, Numbers::Quantized, used)?;
+            }
+        }
+        Ok(mesh)
     }
 
-    pub fn read_tangents(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Option<Vec<Vec4>>, Fault> {
-        self.tangents.map(|tangents| accessors.read(tangents, Type::Vec4, Numbers::Signed, used)).transpose()
+    pub fn read_influences(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<Influences>, Fault> {
+        let read = |&[joints, weights]: &[usize; 2]| {
+            Ok(Influences {
+                joints: accessors.read(joints, Type::Vec4, Numbers::Indices, used)?,
+                weights: accessors.read(weights, Type::Vec4, Numbers::Unsigned, used)?,
+            })
+        };
+        self.influences.iter().map(read).collect()
     }
 
-    /// Colours and opacities; empty where there are none or all are 1.
-    pub fn read_colors(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<[u16; 4]>, Fault> {
+    /// Colours and opacities; empty where there are none.
+    fn read_colors(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<[u16; 4]>, Fault> {
         let Some(colors) = self.colors else { return Ok(Vec::new()) };
         let colors: Vec<Unorm> = if accessors.is_of(colors, Type::Vec3) {
             accessors.read::<_, 3>(colors, Type::Vec3, Numbers::Unsigned, used)?
         } else {
             accessors.read::<_, 4>(colors, Type::Vec4, Numbers::Unsigned, used)?
         };
-        let is_white = colors.iter().all(|color| color.0 == WHITE);
-        Ok(if is_white { Vec::new() } else { colors.into_iter().map(|color| color.0).collect() })
+        Ok(colors.into_iter().map(|color| color.0).collect())
     }
+}
+
+/// The accessors of each set of joints that has weights.
+fn influences(primitive: &Primitive) -> Vec<[usize; 2]> {
+    let get = |semantic| primitive.attributes.get(&Valid(semantic)).map(|accessor| accessor.value());
+    let pair = |semantic: &_| match semantic {
+        &Valid(Semantic::Joints(set)) => Some([get(Semantic::Joints(set))?, get(Semantic::Weights(set))?]),
+        _ => None,
+    };
+    primitive.attributes.keys().filter_map(pair).collect()
 }
 
 /// Numbers clamped to [0, 1], as the nearest of 65536 steps.

@@ -4,7 +4,7 @@ use gltf::json::Root;
 
 use super::Fault;
 use super::exact::Exact;
-use super::json::parse_json;
+use super::json::{Parsed, parse_json};
 use crate::scene::notices::Notices;
 
 /// Bytes of a chunk before its data: its length and its type.
@@ -18,6 +18,8 @@ pub struct Document<'a> {
     pub exact: Exact,
     /// The buffer within a .glb.
     pub binary: Option<&'a [u8]>,
+    /// How many animations there are, of which nothing else is kept.
+    pub animations: usize,
 }
 
 /// Splits a .glb or .gltf file into its parts; which of the two it is, its first bytes tell.
@@ -26,8 +28,8 @@ pub fn parse<'a>(bytes: &'a [u8], notices: &mut Notices) -> Result<Document<'a>,
         return Err(Fault::new("the file is empty; give a .gltf or .glb file"));
     }
     let (json, binary) = if bytes.starts_with(b"glTF") { split_glb(bytes)? } else { (bytes, None) };
-    let (root, exact) = parse_json(json, notices)?;
-    Ok(Document { root, exact, binary })
+    let Parsed { root, exact, animations } = parse_json(json, notices)?;
+    Ok(Document { root, exact, binary, animations })
 }
 
 /// The JSON and, where there is one, the binary chunk.

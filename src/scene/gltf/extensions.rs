@@ -10,8 +10,14 @@ use super::nodes::node_label;
 use crate::scene::notices::Notices;
 
 /// Those that a file may require, besides those of materials and textures.
-pub const SERVED: [&str; 4] =
-    ["KHR_mesh_quantization", "KHR_lights_punctual", "EXT_lights_area", "KHR_materials_variants"];
+pub const SERVED: [&str; 6] = [
+    "EXT_lights_area",
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+];
 
 /// Codecs that compress what buffers hold.
 const CODECS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
@@ -31,6 +37,13 @@ fn parse<T: DeserializeOwned>(value: &Value, name: &str) -> Result<T, Fault> {
     serde_path_to_error::deserialize(value).map_err(wrong)
 }
 
+/// What a node holds under an extension's name, if anything.
+pub fn of_node<T: DeserializeOwned>(root: &Root, index: usize, name: &str) -> Result<Option<T>, Fault> {
+    let value = root.nodes[index].extensions.as_ref().and_then(|extensions| extensions.others.get(name));
+    let parsed = value.map(|value| parse(value, name)).transpose();
+    parsed.map_err(|fault| Fault::at(node_label(root, index), fault))
+}
+
 /// A node's reference to a light.
 #[derive(Deserialize)]
 struct Reference {
@@ -39,15 +52,32 @@ struct Reference {
 
 /// Which of an extension's `count` lights each node bears, whether the node is in the scene or not.
 pub fn lights_of_nodes(root: &Root, name: &str, count: usize) -> Result<Vec<Option<usize>>, Fault> {
-    let nodes = root.nodes.iter().enumerate().map(|(index, node)| {
-        let Some(value) = node.extensions.as_ref().and_then(|extensions| extensions.others.get(name)) else {
-            return Ok(None);
-        };
-        let Reference { light } = parse(value, name).map_err(|fault| Fault::at(node_label(root, index), fault))?;
+    let light = |index: usize| {
+        let Some(Reference { light }) = of_node(root, index, name)? else { return Ok(None) };
         let missing = format_args!("there is no light {light} in {name}; export the file again");
         (light < count).then_some(Some(light)).ok_or_else(|| Fault::at(node_label(root, index), missing))
-    });
-    nodes.collect()
+    };
+    (0..root.nodes.len()).map(light).collect()
+}
+
+/// What a node says of itself under KHR_node_visibility.
+#[derive(Deserialize)]
+struct Visibility {
+    #[serde(default = "visible")]
+    visible: bool,
+}
+
+fn visible() -> bool {
+    true
+}
+
+/// Whether each node says of itself that it is to be seen; those above it may hide it still.
+pub fn visibility(root: &Root) -> Result<Vec<bool>, Fault> {
+    let is_visible = |index: usize| {
+        let said: Option<Visibility> = of_node(root, index, "KHR_node_visibility")?;
+        Ok(said.is_none_or(|said| said.visible))
+    };
+    (0..root.nodes.len()).map(is_visible).collect()
 }
 
 /// Notes what is not drawn of the file as a whole and of its nodes.

@@ -41,8 +41,20 @@ const INDICES: [&str; 24] = [
 /// Beyond it, neighbouring `f64` are more than 1 apart.
 const WHOLE_MAX: f64 = (1u64 << 53) as f64;
 
+/// Under this name a primitive's morph targets are kept among its extensions: `Root` drops the texture coordinates and
+/// colours in them.
+pub const TARGETS: &str = "targets";
+
+/// A file's JSON.
+pub struct Parsed {
+    pub root: Root,
+    pub exact: Exact,
+    /// How many animations there are.
+    pub animations: usize,
+}
+
 /// Parses in two steps, so that errors can name the place by its path rather than by a column in a line of a megabyte.
-pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<(Root, Exact), Fault> {
+pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<Parsed, Fault> {
     let json = bare(text);
     let mut value: Value = serde_json::from_slice(json).map_err(|error| match is_object(json) {
         true => Fault::new(format_args!("its JSON is broken ({error}); correct it or export the file again")),
@@ -53,7 +65,7 @@ pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<(Root, Exact), F
     };
     check_version(root)?;
     // These are not played, and `Root` demands more of them than glTF does.
-    root.remove("animations");
+    let animations = root.remove("animations").as_ref().and_then(Value::as_array).map_or(0, Vec::len);
     check_counts(root)?;
     for scene in root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
         // glTF allows a scene to be empty; `Root` does not.
@@ -63,9 +75,11 @@ pub fn parse_json(text: &[u8], notices: &mut Notices) -> Result<(Root, Exact), F
         prepare(key, value)?;
     }
     factors::mend(root, notices);
+    keep_targets(root);
     let wrong = |error| Fault::new(format_args!("{error}; correct it or export the file again"));
     let root = serde_path_to_error::deserialize(&value).map_err(wrong)?;
-    Ok((root, serde_path_to_error::deserialize(value).map_err(wrong)?))
+    let exact = serde_path_to_error::deserialize(value).map_err(wrong)?;
+    Ok(Parsed { root, exact, animations })
 }
 
 /// The text without a byte order mark, which readers may ignore (RFC 8259, section 8.1), and without zeros at its end,
@@ -74,6 +88,19 @@ fn bare(text: &[u8]) -> &[u8] {
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let padding = text.iter().rev().take_while(|byte| **byte == 0 || byte.is_ascii_whitespace()).count();
     &text[..text.len() - padding]
+}
+
+/// Moves morph targets to where they are kept whole. What is of the wrong type is left for `Root` to refuse.
+fn keep_targets(root: &mut Map<String, Value>) {
+    let meshes = root.get_mut("meshes").and_then(Value::as_array_mut).into_iter().flatten();
+    let primitives = meshes.filter_map(|mesh| mesh.get_mut("primitives")?.as_array_mut()).flatten();
+    for primitive in primitives.filter_map(Value::as_object_mut) {
+        let Some(targets) = primitive.remove("targets") else { continue };
+        let extensions = primitive.entry("extensions").or_insert_with(|| Value::Object(Map::new()));
+        if let Some(extensions) = extensions.as_object_mut() {
+            extensions.insert(TARGETS.to_owned(), targets);
+        }
+    }
 }
 
 /// Whether the text begins like a JSON object, and so is meant to be one.

@@ -16,14 +16,19 @@ mod exact;
 mod extensions;
 mod factors;
 mod images;
+mod instancing;
 mod json;
 
 mod material_extensions;
 mod materials;
+mod morph;
 mod nodes;
+mod options;
+mod origin;
 mod primitives;
 mod punctual;
 mod references;
+mod skinning;
 mod skins;
 #[cfg(test)]
 mod tests;
@@ -41,6 +46,8 @@ use accessor::Accessors;
 use assembly::Assembly;
 use images::Sources;
 
+pub use options::{Options, Pose};
+
 /// Extensions of materials and textures that a file may require.
 const SERVED: &[&str] = &[
     "EXT_texture_webp",
@@ -57,11 +64,11 @@ const NAME_MAX: usize = 256;
 
 /// The scene in a .glb file, or in a .gltf file with the buffers and images beside it. The error says in one line what
 /// is wrong, where, and what to do.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
+pub fn load(path: &Path, options: &Options) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
     // Only a path without a file name has no parent.
     let folder = path.parent().unwrap_or(Path::new("."));
-    let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder)));
+    let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder), options));
     let mut scene = read.map(complete).map_err(|fault| SceneError::new(&file, fault))?;
     scene.files.insert(0, path.to_owned());
     Ok(scene)
@@ -69,12 +76,12 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 
 /// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
 /// [`load`], with `name` in place of the file's.
-pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
-    read(bytes, None).map(complete).map_err(|fault| SceneError::new(name, fault))
+pub fn from_slice(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, SceneError> {
+    read(bytes, None, options).map(complete).map_err(|fault| SceneError::new(name, fault))
 }
 
 /// What the file holds, and what there is to say about it.
-fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
+fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene, Notices), Fault> {
     let mut notices = Notices::default();
     let document = container::parse(bytes, &mut notices)?;
     let (root, exact) = (&document.root, &document.exact);
@@ -83,15 +90,21 @@ fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> 
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
     references::check(root)?;
-    let placed = nodes::place(root, exact, &mut notices)?;
+    let mut nodes = nodes::place(root, exact, &extensions::visibility(root)?, &mut notices)?;
     extensions::note(root, &mut notices);
+    for animation in 0..document.animations {
+        let kind = "animations are not played; nodes stand where the file puts them";
+        notices.add(kind, || format!("animation {animation}"));
+    }
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
-    scene.cameras = cameras::read(root, exact, &placed, &mut notices)?;
-    scene.punctual_lights = punctual::read(root, &placed, &mut notices)?;
-    Assembly::new(accessors, &mut scene, &mut notices).add(&placed)?;
-    area::add(root, &placed, &mut scene, &mut notices)?;
+    let placements = Assembly::new(accessors, &mut scene, &mut notices).add(&nodes, options.pose)?;
+    origin::set(&mut scene, placements, &mut nodes, &mut notices);
+    let placed = &nodes.placed;
+    scene.cameras = cameras::read(root, exact, placed, &mut notices)?;
+    scene.punctual_lights = punctual::read(root, placed, &mut notices)?;
+    area::add(root, placed, &mut scene, &mut notices)?;
     if scene.instances.is_empty() {
-        return Err(Fault::new("the scene has no triangles to draw; put a mesh into it"));
+        return Err(Fault::new("the scene has no triangles to draw; put a mesh into it that is visible"));
     }
     textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
     scene.files = buffers::named_files(root, folder).into_iter().collect();

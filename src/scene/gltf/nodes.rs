@@ -18,6 +18,35 @@ pub struct Placed {
     pub world_from_node: DAffine3,
     /// The rotations of the node and of those above it, without scales: for things that no scale may mirror.
     pub rotation: DQuat,
+    /// Whether the scene lists it or one above it.
+    is_in_scene: bool,
+    /// Whether neither the node nor one above it is hidden (KHR_node_visibility).
+    pub is_visible: bool,
+    /// Its level in the tree; roots have 1.
+    depth: u32,
+}
+
+/// The nodes of a file.
+pub struct Nodes {
+    /// Those of the scene: parents before children, siblings in the file's order.
+    pub placed: Vec<Placed>,
+    /// Where each of the file's nodes stands, in the scene or not; empty where the file has no skins.
+    pub stands: Vec<Stand>,
+}
+
+/// Where a node stands that may be a joint.
+#[derive(Clone, Copy, Default)]
+pub struct Stand {
+    pub world_from_node: DAffine3,
+    /// Its level in the tree; roots have 1.
+    pub depth: u32,
+}
+
+impl Nodes {
+    /// Counts the places of the scene's nodes from another origin.
+    pub fn count_from(&mut self, origin: DVec3) {
+        self.placed.iter_mut().for_each(|place| place.world_from_node.translation -= origin);
+    }
 }
 
 /// `node 3 "sleeve"`.
@@ -25,9 +54,9 @@ pub fn node_label(root: &Root, index: usize) -> String {
     label("node", index, root.nodes.get(index).and_then(|node| node.name.as_deref()))
 }
 
-/// The nodes of the default scene, else of the first, else, where there is no scene, all nodes: parents before
-/// children, siblings in the file's order. All nodes are checked, whether in the scene or not.
-pub fn place(root: &Root, exact: &Exact, notices: &mut Notices) -> Result<Vec<Placed>, Fault> {
+/// Places the nodes of the default scene, else of the first, else, where there is no scene, all nodes. All are checked,
+/// whether in the scene or not. `visible` has what each says of itself.
+pub fn place(root: &Root, exact: &Exact, visible: &[bool], notices: &mut Notices) -> Result<Nodes, Fault> {
     let parents = parents(root)?;
     let local = exact
         .nodes
@@ -38,24 +67,48 @@ pub fn place(root: &Root, exact: &Exact, notices: &mut Notices) -> Result<Vec<Pl
     let mut is_listed = vec![false; parents.len()];
     let mut roots = listed(root, &parents, notices)?;
     roots.iter().for_each(|&node| is_listed[node] = true);
-    // Below other roots there may be nodes that are listed though they are none: parents count, in the scene or not.
+    // Below other roots there may be joints, and nodes that are listed though they are no roots.
     roots.retain(|&node| parents[node].is_none());
     roots.extend((0..parents.len()).filter(|&node| parents[node].is_none() && !is_listed[node]));
-    // Not by recursion: chains of nodes may be of any length.
-    let start = Local { transform: DAffine3::IDENTITY, rotation: DQuat::IDENTITY };
-    let mut open: Vec<(usize, Local, bool)> = roots.into_iter().rev().map(|node| (node, start, false)).collect();
-    let mut placed = Vec::new();
-    while let Some((node, above, is_below_listed)) = open.pop() {
-        let (transform, rotation) =
-            (above.transform * local[node].transform, (above.rotation * local[node].rotation).normalize());
-        let is_in_scene = is_below_listed || is_listed[node];
-        if is_in_scene {
-            placed.push(Placed { node, world_from_node: transform, rotation });
+    let mut placed = walk(root, &local, &is_listed, visible, roots);
+    let mut stands = Vec::new();
+    if !root.skins.is_empty() {
+        stands.resize(root.nodes.len(), Stand::default());
+        for &Placed { node, world_from_node, depth, .. } in &placed {
+            stands[node] = Stand { world_from_node, depth };
         }
-        let children = root.nodes[node].children.iter().flatten().rev();
-        open.extend(children.map(|child| (child.value(), Local { transform, rotation }, is_in_scene)));
     }
-    Ok(placed)
+    placed.retain(|place| place.is_in_scene);
+    Ok(Nodes { placed, stands })
+}
+
+/// All nodes, from these roots down: parents before children, siblings in the file's order.
+fn walk(root: &Root, local: &[Local], is_listed: &[bool], visible: &[bool], roots: Vec<usize>) -> Vec<Placed> {
+    let place = |node: usize, above: &Placed| Placed {
+        node,
+        world_from_node: above.world_from_node * local[node].transform,
+        rotation: (above.rotation * local[node].rotation).normalize(),
+        is_in_scene: above.is_in_scene || is_listed[node],
+        is_visible: above.is_visible && visible[node],
+        depth: above.depth + 1,
+    };
+    let world = Placed {
+        node: usize::MAX,
+        world_from_node: DAffine3::IDENTITY,
+        rotation: DQuat::IDENTITY,
+        is_in_scene: false,
+        is_visible: true,
+        depth: 0,
+    };
+    // Not by recursion: chains of nodes may be of any length.
+    let mut open: Vec<Placed> = roots.into_iter().rev().map(|node| place(node, &world)).collect();
+    let mut placed = Vec::with_capacity(local.len());
+    while let Some(next) = open.pop() {
+        let children = root.nodes[next.node].children.iter().flatten().rev();
+        open.extend(children.map(|child| place(child.value(), &next)));
+        placed.push(next);
+    }
+    placed
 }
 
 /// The parent of each node, once it is certain that the nodes form trees.

@@ -1,13 +1,14 @@
 //! Primitives: made from accessors into indexed triangles, with what each vertex needs.
 
-use glam::{DVec3, Vec3, Vec4};
-use gltf::json::accessor::Type;
+use glam::{DAffine3, DVec3, Vec3, Vec4};
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked::Valid;
 
 use super::Fault;
-use super::accessor::{Accessors, Numbers};
-use super::attributes::Attributes;
+use super::accessor::Accessors;
+use super::attributes::{Attributes, WHITE};
+use super::morph::Deltas;
+use super::{morph, skinning};
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Mesh, TextureUse, tangents};
 
@@ -16,6 +17,25 @@ use crate::scene::{Material, Mesh, TextureUse, tangents};
 const SHARING: u64 = 64;
 /// And so many bytes more, for small files.
 const SHARING_FLOOR: u64 = 64 << 20;
+
+/// What gives a primitive its shape besides its own vertices.
+#[derive(Clone, Copy, Default)]
+pub struct Shape<'a> {
+    /// Of its morph targets.
+    pub weights: &'a [f32],
+    /// Where each joint of a skin puts what is bound to it, in the world.
+    pub joints: Option<&'a [DAffine3]>,
+}
+
+/// A primitive in its shape.
+pub struct Shaped {
+    /// Its material is left for the caller to fill in.
+    pub mesh: Mesh,
+    /// Whether it is bound to joints.
+    pub is_bound: bool,
+    /// Where in the world the joints of its shape have put the mesh's origin; `None` where they have not moved it.
+    pub origin: Option<DVec3>,
+}
 
 /// Reads primitives, within a budget of memory.
 pub struct Reader<'a> {
@@ -29,24 +49,29 @@ impl<'a> Reader<'a> {
         Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
-    /// The mesh of a primitive of `material`, whose index is left for the caller to fill in; `None` where nothing is
-    /// drawn.
+    /// Takes so many bytes from the budget.
+    pub fn charge(&mut self, bytes: usize) -> Result<(), Fault> {
+        let what =
+            "too many primitives, poses or instances share the same accessors; split the file or export it again";
+        self.budget = self.budget.checked_sub(bytes as u64).ok_or_else(|| Fault::new(what))?;
+        Ok(())
+    }
+
+    /// A primitive of `material` in a shape; `None` where nothing is drawn.
     pub fn read(
         &mut self,
         primitive: &Primitive,
         material: &Material,
         name: String,
+        shape: Shape,
         notices: &mut Notices,
-    ) -> Result<Option<Mesh>, Fault> {
+    ) -> Result<Option<Shaped>, Fault> {
         let Valid(mode) = primitive.mode else { return Err(Fault::new("its mode is none of glTF's; export it again")) };
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             notices.add("points and lines are not drawn", || name);
             return Ok(None);
         }
-        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            notices.add("morph targets are not applied", || name.clone());
-        }
-        let Some(attributes) = Attributes::of(primitive, material, notices, &name) else {
+        let Some(mut attributes) = Attributes::of(primitive, material, notices, &name) else {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
@@ -55,28 +80,67 @@ impl<'a> Reader<'a> {
         {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
-        let Corners { used, triangles: mut indices } = self.corners(primitive, &attributes, mode)?;
+        let is_bound = !attributes.influences.is_empty();
+        if shape.joints.is_none() {
+            attributes.influences.clear();
+        }
+        let Corners { count, used, mut triangles } = self.corners(primitive, &attributes, mode)?;
         let used = used.as_deref();
-        let positions = self.accessors.read(attributes.positions, Type::Vec3, Numbers::Quantized, used)?;
-        indices.retain(|&triangle| area_vector(&positions, triangle) != DVec3::ZERO);
-        if indices.is_empty() {
+        let mut mesh = Mesh { name, ..attributes.read(&self.accessors, used)? };
+        self.morph(&mut mesh, primitive, (shape.weights, count, used))?;
+        let origin = self.bend(&mut mesh, &mut triangles, &attributes, (shape.joints, used), notices)?;
+        triangles.retain(|&triangle| area_vector(&mesh.positions, triangle) != DVec3::ZERO);
+        if triangles.is_empty() {
+            if origin.is_some() {
+                notices.add("meshes of which their pose leaves no area are not drawn", || mesh.name);
+            }
             return Ok(None);
         }
-        let mut mesh = Mesh { name, positions, indices: indices.into_flattened(), ..Mesh::default() };
-        mesh.tex_coords = attributes.read_tex_coords(&self.accessors, used)?;
-        mesh.colors = attributes.read_colors(&self.accessors, used)?;
-        match attributes.normals {
-            None => flatten(&mut mesh),
-            Some(normals) => {
-                mesh.normals = self.accessors.read(normals, Type::Vec3, Numbers::Signed, used)?;
-                unify(&mut mesh, notices);
-            }
+        mesh.indices = triangles.into_flattened();
+        if mesh.colors.iter().all(|&color| color == WHITE) {
+            mesh.colors = Vec::new();
+        }
+        if attributes.normals.is_some() {
+            unify(&mut mesh, notices)
+        } else {
+            flatten(&mut mesh)
         }
         if let Some(map) = attributes.normal_map {
-            let own = attributes.read_tangents(&self.accessors, used)?;
-            orient(&mut mesh, map, own.as_deref(), notices);
+            orient(&mut mesh, map, notices);
         }
-        Ok(Some(mesh))
+        Ok(Some(Shaped { mesh, is_bound, origin }))
+    }
+
+    /// Adds the morph targets that have a weight.
+    fn morph(
+        &mut self,
+        mesh: &mut Mesh,
+        primitive: &Primitive,
+        (weights, count, used): (&[f32], usize, Option<&[u32]>),
+    ) -> Result<(), Fault> {
+        if weights.is_empty() {
+            return Ok(());
+        }
+        self.charge(morph::count(primitive).saturating_mul(size_of::<morph::Target>()))?;
+        let targets = morph::targets(primitive)?;
+        self.charge(Deltas::bytes(&targets, weights, mesh.positions.len()))?;
+        Deltas { accessors: &self.accessors, targets: &targets, weights, used, count }.add_to(mesh)
+    }
+
+    /// Moves vertices by the joints that they are bound to, and says where these have put the mesh's origin.
+    fn bend(
+        &mut self,
+        mesh: &mut Mesh,
+        triangles: &mut [[u32; 3]],
+        attributes: &Attributes,
+        (joints, used): (Option<&[DAffine3]>, Option<&[u32]>),
+        notices: &mut Notices,
+    ) -> Result<Option<DVec3>, Fault> {
+        let Some(joints) = joints.filter(|_| !attributes.influences.is_empty()) else { return Ok(None) };
+        let sets = attributes.influences.len();
+        self.charge(skinning::vertex_bytes(sets).saturating_mul(mesh.positions.len()))?;
+        let sets = attributes.read_influences(&self.accessors, used)?;
+        skinning::apply(mesh, triangles, &sets, joints, notices).map(Some)
     }
 
     /// The triangles of a primitive. No more vertices are read than there are corners, so that the file's indices limit
@@ -85,10 +149,10 @@ impl<'a> Reader<'a> {
         let count = attributes.count(&self.accessors)?;
         let indices = primitive.indices.map(|indices| indices.value());
         let corners = indices.map_or(Ok(count), |indices| self.accessors.count(indices))?;
-        self.charge(corners, count, attributes, mode)?;
+        self.charge_vertices(corners, count, attributes, mode)?;
         let mut corners = match indices {
             Some(indices) => self.accessors.indices(indices)?,
-            // There are fewer than 2^32: `charge` has seen to it.
+            // There are fewer than 2^32: `charge_vertices` has seen to it.
             None => (0..count as u32).collect(),
         };
         if let Some(at) = corners.iter().position(|&corner| corner as usize >= count) {
@@ -105,33 +169,42 @@ impl<'a> Reader<'a> {
             }
             used
         });
-        Ok(Corners { used, triangles: triangles(&corners, mode) })
+        Ok(Corners { count, used, triangles: triangles(&corners, mode) })
     }
 
     /// Takes from the budget the most memory that triangles of so many corners and vertices need.
-    fn charge(&mut self, corners: usize, count: usize, attributes: &Attributes, mode: Mode) -> Result<(), Fault> {
+    fn charge_vertices(
+        &mut self,
+        corners: usize,
+        count: usize,
+        attributes: &Attributes,
+        mode: Mode,
+    ) -> Result<(), Fault> {
         let indices = if mode == Mode::Triangles { corners } else { corners.saturating_mul(3) };
         let vertices = if attributes.may_split() { indices.max(count.min(corners)) } else { count.min(corners) };
         let bytes = vertices.saturating_mul(attributes.vertex_bytes()).saturating_add(indices.saturating_mul(4));
-        let over = || Fault::new("too many primitives share the same accessors; split the file or export it again");
-        self.budget = self.budget.checked_sub(bytes as u64).ok_or_else(over)?;
+        let bytes = bytes.saturating_add(size_of::<Mesh>());
         // Indices of 32 bits must do for vertices that are split, too.
-        (vertices < u32::MAX as usize).then_some(()).ok_or_else(over)
+        self.charge(if vertices < u32::MAX as usize { bytes } else { usize::MAX })
     }
 }
 
 /// Gives a normal-mapped mesh its tangents: the file's own, or computed ones where these are missing or unusable.
-fn orient(mesh: &mut Mesh, map: TextureUse, own: Option<&[Vec4]>, notices: &mut Notices) {
-    match own {
-        Some(own) if tangents::adopt(mesh, own) => return,
-        Some(_) => notices.add("tangents of no length or along the normal are computed anew", || mesh.name.clone()),
-        None => {}
+fn orient(mesh: &mut Mesh, map: TextureUse, notices: &mut Notices) {
+    let own: Vec<Vec4> = std::mem::take(&mut mesh.tangents);
+    if !own.is_empty() {
+        if tangents::adopt(mesh, &own) {
+            return;
+        }
+        notices.add("tangents of no length or along the normal are computed anew", || mesh.name.clone());
     }
     tangents::compute(mesh, map.tex_coord, map.uv_from_tex_coord);
 }
 
 /// What a primitive makes of its vertices.
 struct Corners {
+    /// How many vertices the primitive has.
+    count: usize,
     /// The vertices that are read, in order; `None` where all are.
     used: Option<Vec<u32>>,
     /// Vertices are counted among those that are read.

@@ -112,7 +112,7 @@ impl Light {
     }
 }
 
-/// The lights at the scene's nodes, each with its name in the file's list or, without one, its node's. All are checked,
+/// The lights at the scene's visible nodes, each with its name in the file's list or, without one, its node's. All are checked,
 /// whether placed or not.
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<PunctualLight>, Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
@@ -123,7 +123,7 @@ pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec
     let lights: Vec<PunctualLight> = lights.iter().enumerate().map(&mut read).collect::<Result<_, _>>()?;
     let of_nodes = extensions::lights_of_nodes(root, EXTENSION, lights.len())?;
     let mut found = Vec::new();
-    for &Placed { node, world_from_node, .. } in placed {
+    for &Placed { node, world_from_node, .. } in placed.iter().filter(|place| place.is_visible) {
         let Some(light) = of_nodes[node].map(|light| &lights[light]).filter(|light| light.intensity != Vec3::ZERO)
         else {
             continue;

@@ -1,10 +1,12 @@
 //! Indices from one list of the file into another, as far as they are not checked where they are followed.
 
+use std::collections::HashMap;
+
 use gltf::json::{Index, Root};
 
 use super::assembly::primitive_label;
 use super::nodes::node_label;
-use super::{Fault, textures};
+use super::{Fault, morph, textures};
 use crate::scene::error::label;
 
 /// Checks what nodes, primitives, textures, images and skins refer to, whether they are in the scene or not.
@@ -18,10 +20,13 @@ pub fn check(root: &Root) -> Result<(), Fault> {
     for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
         for (index, primitive) in primitives.iter().enumerate() {
             let place = || primitive_label(root, mesh, index);
-            let targets = primitive.targets.iter().flatten();
-            let deltas = targets.flat_map(|target| [&target.positions, &target.normals, &target.tangents]).flatten();
-            let accessors = primitive.attributes.values().chain(&primitive.indices).chain(deltas);
+            let accessors = primitive.attributes.values().chain(&primitive.indices);
             within("accessor", root.accessors.len(), accessors, place)?;
+            let targets = morph::targets(primitive).map_err(|fault| Fault::at(place(), fault))?;
+            if let Some(delta) = targets.iter().flat_map(HashMap::values).find(|&&delta| delta >= root.accessors.len())
+            {
+                return Err(Fault::at(place(), format_args!("there is no accessor {delta}; export the file again")));
+            }
             within("material", root.materials.len(), &primitive.material, place)?;
         }
     }

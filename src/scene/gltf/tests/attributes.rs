@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::builder::{Builder, check_attributes};
 use crate::scene::gltf::accessor::Accessors;
-use crate::scene::gltf::primitives::Reader;
+use crate::scene::gltf::primitives::{Reader, Shape};
 use crate::scene::gltf::{buffers, container};
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Mesh, TextureSlot, TextureUse};
@@ -22,6 +22,11 @@ pub fn textured(uses: &[(TextureSlot, usize)]) -> Material {
 
 /// The first primitive of a file as a material needs it, and what is said of it.
 pub fn mesh_of(file: &Builder, material: &Material) -> Result<(Mesh, Vec<String>), String> {
+    shaped(file, material, &[])
+}
+
+/// The same, its morph targets at these weights.
+pub fn shaped(file: &Builder, material: &Material, weights: &[f32]) -> Result<(Mesh, Vec<String>), String> {
     let glb = file.glb();
     let mut notices = Notices::default();
     let document = container::parse(&glb, &mut notices).map_err(|fault| fault.to_string())?;
@@ -29,8 +34,9 @@ pub fn mesh_of(file: &Builder, material: &Material) -> Result<(Mesh, Vec<String>
     let accessors = Accessors { root: &document.root, buffers: &buffers };
     accessors.check().map_err(|fault| fault.to_string())?;
     let primitive = &document.root.meshes[0].primitives[0];
-    let mesh = Reader::new(accessors).read(primitive, material, "cloth".to_owned(), &mut notices);
-    let mesh = mesh.map_err(|fault| fault.to_string())?.expect("nothing to draw");
+    let shape = Shape { weights, joints: None };
+    let shaped = Reader::new(accessors).read(primitive, material, "cloth".to_owned(), shape, &mut notices);
+    let mesh = shaped.map_err(|fault| fault.to_string())?.expect("nothing to draw").mesh;
     check_attributes(&mesh, material);
     Ok((mesh, notices.into_lines().collect()))
 }

@@ -4,10 +4,11 @@ use std::io::Cursor;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use serde_json::{Value, json};
 
+use crate::scene::gltf::{Options, from_slice};
 use crate::scene::{Material, Mesh, PunctualKind, Scene, TextureSlot};
 
 /// A file under construction: JSON, and the bytes of its one buffer.
@@ -156,6 +157,29 @@ impl Builder {
         self.push("meshes", json!({ "primitives": [primitive] }))
     }
 
+    /// Gives a mesh's first primitive an attribute.
+    pub fn attribute(&mut self, mesh: usize, name: &str, accessor: usize) {
+        self.json["meshes"][mesh]["primitives"][0]["attributes"][name] = json!(accessor);
+    }
+
+    /// Binds the vertices of a mesh's first primitive to joints.
+    pub fn bind(&mut self, mesh: usize, joints: &[[u8; 4]], weights: &[[f32; 4]]) {
+        let joints = self.accessor(joints.as_flattened(), joints.len(), 5121, "VEC4");
+        let weights = self.accessor(bytemuck::cast_slice(weights), weights.len(), 5126, "VEC4");
+        self.attribute(mesh, "JOINTS_0", joints);
+        self.attribute(mesh, "WEIGHTS_0", weights);
+    }
+
+    /// Adds a skin.
+    pub fn skin(&mut self, joints: &[usize], bound: &[Mat4]) -> usize {
+        let bound: Vec<f32> = bound.iter().flat_map(Mat4::to_cols_array).collect();
+        let bound = self.accessor(bytemuck::cast_slice(&bound), bound.len() / 16, 5126, "MAT4");
+        if self.json["skins"].is_null() {
+            self.json["skins"] = json!([]);
+        }
+        self.push("skins", json!({ "joints": joints, "inverseBindMatrices": bound }))
+    }
+
     /// The file as a .glb.
     pub fn glb(&self) -> Vec<u8> {
         glb(self.json.to_string().as_bytes(), &self.bytes)
@@ -171,6 +195,13 @@ impl Builder {
 
     pub fn read(&self) -> Scene {
         read(&self.glb()).unwrap()
+    }
+
+    /// The one line that is said of the file, which must be broken.
+    pub fn error(&self) -> String {
+        let error = read(&self.glb()).expect_err("this is read");
+        assert_eq!(error.lines().count(), 1, "{error}");
+        error
     }
 }
 
@@ -189,7 +220,12 @@ pub fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
 
 /// Reads a file; what is read must be whole.
 pub fn read(bytes: &[u8]) -> Result<Scene, String> {
-    let scene = crate::scene::gltf::from_slice(bytes, "test.glb").map_err(|error| error.to_string())?;
+    read_as(bytes, &Options::default())
+}
+
+/// Reads a file in another way; what is read must be whole.
+pub fn read_as(bytes: &[u8], options: &Options) -> Result<Scene, String> {
+    let scene = from_slice(bytes, "test.glb", options).map_err(|error| error.to_string())?;
     check(&scene);
     Ok(scene)
 }

@@ -7,10 +7,10 @@ use serde_json::json;
 
 use super::builder::{Builder, check};
 use crate::scene::Scene;
-use crate::scene::gltf::load;
+use crate::scene::gltf::{Options, load};
 
 fn error(path: &Path) -> String {
-    let error = load(path).expect_err("this is read").to_string();
+    let error = load(path, &Options::default()).expect_err("this is read").to_string();
     assert_eq!(error.lines().count(), 1, "{error}");
     error
 }
@@ -21,7 +21,7 @@ fn with_buffer(folder: &Path, uri: &str) -> Result<Scene, String> {
     file.json["buffers"][0]["uri"] = json!(uri);
     let path = folder.join("scene.gltf");
     fs::write(&path, file.json.to_string()).unwrap();
-    load(&path).map_err(|error| error.to_string())
+    load(&path, &Options::default()).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -100,14 +100,15 @@ fn many_buffers_of_one_file_are_read_once() {
     json["buffers"] = json!(vec![json!({ "uri": "cloth.bin", "byteLength": 1 << 24 }); 10_000]);
     fs::write(folder.path().join("scene.gltf"), json.to_string()).unwrap();
     // Held apart these would be 160 GB.
-    check(&load(&folder.path().join("scene.gltf")).unwrap());
+    check(&load(&folder.path().join("scene.gltf"), &Options::default()).unwrap());
 }
 
 #[test]
 fn a_scene_without_a_folder_reads_no_files() {
     let mut file = Builder::studio();
     file.json["buffers"][0]["uri"] = json!("cloth.bin");
-    let error = crate::scene::gltf::from_slice(file.json.to_string().as_bytes(), "memory").unwrap_err().to_string();
+    let error = crate::scene::gltf::from_slice(file.json.to_string().as_bytes(), "memory", &Options::default());
+    let error = error.unwrap_err().to_string();
     assert!(error.contains("memory: buffer 0") && error.contains("no folder"), "{error}");
 }
 
@@ -123,5 +124,5 @@ fn the_scene_knows_its_files() {
         json!([{ "uri": "maps/cl%6fth.png" }, { "uri": "data:image/png;base64,AAAA" }, { "uri": "data.bin" }]);
     fs::write(&path, file.json.to_string()).unwrap();
     let cloth = folder.path().join("maps/cloth.png");
-    assert_eq!(load(&path).unwrap().files, [path, data, cloth]);
+    assert_eq!(load(&path, &Options::default()).unwrap().files, [path, data, cloth]);
 }

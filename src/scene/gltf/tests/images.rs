@@ -8,7 +8,7 @@ use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, L
 use serde_json::json;
 
 use super::builder::{Builder, encoded, picture, read};
-use crate::scene::gltf::load;
+use crate::scene::gltf::{Options, load};
 use crate::scene::{Image, Scene};
 
 /// The studio with this image in a texture of its felt.
@@ -115,7 +115,7 @@ fn images_beside_the_scene_and_in_its_uris() {
         file.json["images"] = json!([{ "uri": uri, "name": "weave" }]);
         let path = folder.path().join("scene.gltf");
         fs::write(&path, file.gltf()).unwrap();
-        load(&path).map_err(|error| error.to_string())
+        load(&path, &Options::default()).map_err(|error| error.to_string())
     };
     fs::write(folder.path().join("two words.png"), &bytes).unwrap();
     fs::write(folder.path().join("text.png"), "a weave").unwrap();

@@ -179,8 +179,6 @@ fn unlit_materials_have_a_base_color_and_no_more() {
 #[test]
 fn what_is_not_drawn_is_noted_once_a_kind() {
     let mut file = Builder::textured_studio();
-    file.json["animations"] =
-        json!([{ "channels": [{ "target": { "path": "weights" }, "sampler": 0 }], "samplers": [] }]);
     for material in 0..2 {
         file.json["materials"][material]["extensions"]["KHR_materials_clearcoat"] = json!({ "clearcoatFactor": 1 });
         file.json["materials"][material]["extensions"]["ACME_glitter"] = json!({});

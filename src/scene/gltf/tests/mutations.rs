@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use glam::Vec3;
 use image::ImageFormat;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -142,7 +143,8 @@ fn read_with_changed_values(file: &Builder, random: &mut Pcg32, rounds: usize) -
     read
 }
 
-/// The studio with a sheet that is quantized, sparse, coloured, mapped and skinned, and with lights of every kind.
+/// The studio with a sheet that is quantized, sparse, coloured, mapped, morphed and skinned, two lamps that are instances,
+/// and lights of every kind.
 fn workshop() -> Builder {
     let mut file = Builder::studio();
     let positions: [i8; 16] = [-100, -100, 0, 0, 100, -100, 0, 0, 100, 100, 0, 0, -100, 100, 0, 0];
@@ -162,10 +164,13 @@ fn workshop() -> Builder {
     });
     let mesh = file.json["meshes"][0]["primitives"][0].as_object_mut().unwrap();
     mesh.insert("attributes".to_owned(), attributes);
-    let bound: Vec<f32> = glam::Mat4::IDENTITY.to_cols_array().to_vec();
-    let bound = file.accessor(bytemuck::cast_slice(&bound), 1, 5126, "MAT4");
-    file.json["skins"] = json!([{ "joints": [1], "inverseBindMatrices": bound }]);
-    file.json["nodes"][0]["skin"] = json!(0);
+    file.bind(0, &[[0, 1, 0, 0]; 4], &[[0.25, 0.75, 0.0, 0.0]; 4]);
+    let joint = file.push("nodes", json!({ "translation": [0, 0.25, 0], "rotation": [0.0, 0.0, 0.6, 0.8] }));
+    file.json["nodes"][0]["skin"] = json!(file.skin(&[1, joint], &[glam::Mat4::IDENTITY; 2]));
+    let target =
+        json!({ "POSITION": file.vectors(&[Vec3::Z; 4]), "NORMAL": file.vectors(&[Vec3::X; 4]), "COLOR_0": colors });
+    file.json["meshes"][0]["primitives"][0]["targets"] = json!([{ "TEXCOORD_0": coords }, target]);
+    (file.json["meshes"][0]["weights"], file.json["nodes"][0]["weights"]) = (json!([0.5, 0.0]), json!([0.0, 0.5]));
     let spot = json!({ "type": "spot", "range": 9, "spot": { "innerConeAngle": 0.1, "outerConeAngle": 0.7 } });
     let rect = json!({ "type": "rect", "size": 2, "color": [1, 1, 0], "rect": { "aspect": 2 } });
     file.json["extensions"] = json!({
@@ -176,13 +181,18 @@ fn workshop() -> Builder {
         let lights = json!({ "KHR_lights_punctual": { "light": punctual }, "EXT_lights_area": { "light": area } });
         file.json["nodes"][node]["extensions"] = lights;
     }
+    let [places, sizes] = [[Vec3::ZERO, Vec3::X], [Vec3::ONE, Vec3::splat(0.5)]].map(|vectors| file.vectors(&vectors));
+    let turns = file.accessor(&[0, 0, 90, 90, 0, 127, 0, 0], 2, 5120, "VEC4");
+    let instancing = json!({ "attributes": { "TRANSLATION": places, "ROTATION": turns, "SCALE": sizes } });
+    file.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"] = instancing;
+    file.json["nodes"][2]["extensions"]["KHR_node_visibility"] = json!({ "visible": true });
     file
 }
 
 #[test]
 fn the_workshop_itself_is_read() {
     let scene = workshop().read();
-    assert_eq!((scene.punctual_lights.len(), scene.lights.len(), scene.notices.len()), (3, 4, 0));
+    assert_eq!((scene.punctual_lights.len(), scene.lights.len(), scene.notices.len()), (3, 5, 0));
     assert!(!scene.meshes[0].colors.is_empty());
 }
 /// The JSON pointers of all values below the root.
