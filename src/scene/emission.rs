@@ -1,5 +1,7 @@
 //! The mean of an emissive texture over an emitter, from which follows the radiance of its light.
 
+use std::collections::HashMap;
+
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -14,18 +16,73 @@ const POINTS: f64 = 4.0;
 /// The least number of points, all triangles together.
 const POINTS_MIN: f64 = (1 << 16) as f64;
 
-/// The radiance of an instance's emissive surface, linear Rec. 709, finite: its material's emission times the mean of
-/// its emissive texture over the surface's area in the world. Where a mesh lacks the set of texture coordinates, all of
-/// them are (0, 0).
-///
-/// The texture is looked up bilinearly at the points of a low-discrepancy sequence in each triangle, at least 4 per
-/// texel. For noise, where every texel differs from the next, the mean is right to 0.0005, where white is 1.
-pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
-    let instance = &scene.instances[instance];
-    let mesh = &scene.meshes[instance.mesh];
+/// The radiances of a scene's emitters. What is found of a mesh holds for all its instances.
+pub(super) struct Radiances<'a> {
+    scene: &'a Scene,
+    /// By mesh.
+    known: HashMap<usize, Glow>,
+}
+
+/// What a mesh emits.
+struct Glow {
+    /// For each triangle, the mean of its emissive texture; empty where there is none.
+    means: Vec<DVec3>,
+    /// Whether any triangle emits anything.
+    is_bright: bool,
+}
+
+impl<'a> Radiances<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, known: HashMap::new() }
+    }
+
+    /// Whether any part of an instance emits.
+    pub fn is_bright(&mut self, instance: usize) -> bool {
+        self.glow(self.scene.instances[instance].mesh).is_bright
+    }
+
+    /// The radiance of an instance's emissive surface, linear Rec. 709, finite: its material's emission times the mean
+    /// of its emissive texture over the surface's area in the world. Where a mesh lacks the set of texture coordinates,
+    /// all of them are (0, 0).
+    ///
+    /// The texture is looked up bilinearly at the points of a low-discrepancy sequence in each triangle, at least 4 per
+    /// texel. For noise, where every texel differs from the next, the mean is right to 0.0005, where white is 1.
+    pub fn of(&mut self, instance: usize) -> Vec3 {
+        let scene = self.scene;
+        let instance = &scene.instances[instance];
+        let mesh = &scene.meshes[instance.mesh];
+        let emission = scene.materials[mesh.material].emission;
+        let means = &self.glow(instance.mesh).means;
+        if means.is_empty() {
+            return emission;
+        }
+        let weighted = |(triangle, &mean): (&[u32; 3], &DVec3)| {
+            let area = area(mesh, instance.world_from_mesh, triangle);
+            (area * mean, area)
+        };
+        let add = |left: (DVec3, f64), right: (DVec3, f64)| (left.0 + right.0, left.1 + right.1);
+        // Summed in order, so that the result is the same every time.
+        let triangles = mesh.indices.as_chunks::<3>().0;
+        let (sum, area) = triangles.iter().zip(means).map(weighted).fold((DVec3::ZERO, 0.0), add);
+        if area > 0.0 && sum.is_finite() { emission * (sum / area).as_vec3() } else { Vec3::ZERO }
+    }
+
+    fn glow(&mut self, mesh: usize) -> &Glow {
+        self.known.entry(mesh).or_insert_with(|| {
+            let mesh = &self.scene.meshes[mesh];
+            let (means, emission) = (means(self.scene, mesh), self.scene.materials[mesh.material].emission);
+            let is_bright = |&mean: &DVec3| emission.as_dvec3() * mean != DVec3::ZERO;
+            let is_bright = if means.is_empty() { emission != Vec3::ZERO } else { means.iter().any(is_bright) };
+            Glow { means, is_bright }
+        })
+    }
+}
+
+/// For each triangle of a mesh, the mean of its material's emissive texture; empty where nothing emits by a texture.
+fn means(scene: &Scene, mesh: &Mesh) -> Vec<DVec3> {
     let material = &scene.materials[mesh.material];
     let Some(used) = material.texture(TextureSlot::Emission).filter(|_| material.emission != Vec3::ZERO) else {
-        return material.emission;
+        return Vec::new();
     };
     let texture = scene.textures[used.texture];
     let coordinates = &mesh.tex_coords[used.tex_coord];
@@ -51,15 +108,7 @@ pub(super) fn radiance(scene: &Scene, instance: usize) -> Vec3 {
     let sampler = Sampler { magnify: Filter::Linear, ..texture.sampler };
     let mean =
         |triangle: &[u32; 3]| level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, sampler);
-    let weighted = |triangle: &[u32; 3]| {
-        let area = area(mesh, instance.world_from_mesh, triangle);
-        (area * mean(triangle), area)
-    };
-    let add = |left: (DVec3, f64), right: (DVec3, f64)| (left.0 + right.0, left.1 + right.1);
-    // Summed in order, so that the result is the same every time.
-    let parts: Vec<(DVec3, f64)> = triangles.par_iter().map(weighted).collect();
-    let (sum, area) = parts.into_iter().fold((DVec3::ZERO, 0.0), add);
-    if area > 0.0 && sum.is_finite() { material.emission * (sum / area).as_vec3() } else { Vec3::ZERO }
+    triangles.par_iter().map(mean).collect()
 }
 
 /// Twice a triangle's area in the world.

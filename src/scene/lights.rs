@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
+use super::emission::Radiances;
 use super::islands::Topology;
 use super::notices::Notices;
 use super::outline::crosses;
-use super::{Light, Scene, emission};
+use super::{Light, Scene};
 
 /// The most planar islands of an instance that is a light.
 pub const ISLANDS_MAX: usize = 256;
@@ -17,13 +18,13 @@ const TRIANGLES_MAX: usize = 1 << 23;
 /// Adds a light for every instance from index `first` on that emits. What is past a limit glows but lights nothing.
 pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices) {
     let (mut triangles, mut corners) = (0, 0);
+    let (mut radiances, mut lights) = (Radiances::new(scene), Vec::new());
     let mut topologies: Vec<Option<Topology>> = scene.meshes.iter().map(|_| None).collect();
     for index in first..scene.instances.len() {
         let instance = &scene.instances[index];
         let mesh = &scene.meshes[instance.mesh];
         let material = &scene.materials[mesh.material];
-        let radiance = emission::radiance(scene, index);
-        if radiance == Vec3::ZERO {
+        if !radiances.is_bright(index) {
             continue;
         }
         let name = if instance.name.is_empty() { &mesh.name } else { &instance.name };
@@ -42,6 +43,11 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         if corners + own > CORNERS_MAX {
             notices.add("emitters past 8192 corners in all glow but light nothing", || name.clone());
         } else if own > 0 {
+            // What glows may have no area.
+            let radiance = radiances.of(index);
+            if radiance == Vec3::ZERO {
+                continue;
+            }
             corners += own;
             if polygons.iter().any(|polygon| crosses(&polygon.contours, polygon.normal)) {
                 let kind = "emitters whose outline crosses itself light twice where they overlap";
@@ -52,7 +58,8 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
             let mean = radiance / material.emission.max(Vec3::splat(f32::MIN_POSITIVE));
             let texture_mean = Vec3::select(material.emission.cmpgt(Vec3::ZERO), mean, Vec3::ONE);
             let two_sided = material.double_sided;
-            scene.lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
+            lights.push(Light { name, radiance, texture_mean, two_sided, polygons, instance: index });
         }
     }
+    scene.lights.extend(lights);
 }

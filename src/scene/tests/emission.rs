@@ -5,8 +5,12 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::shapes::{grid, scene};
-use crate::scene::emission::radiance;
+use crate::scene::emission::Radiances;
 use crate::scene::{Image, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap};
+
+fn radiance(scene: &Scene, instance: usize) -> Vec3 {
+    Radiances::new(scene).of(instance)
+}
 
 /// The inverse of sRGB's curve, by hand.
 fn linear(code: u8) -> f64 {

@@ -12,6 +12,7 @@ mod lights;
 mod materials;
 mod morphs;
 mod mutations;
+mod odd_skins;
 mod origin;
 mod poses;
 mod reads;

@@ -159,6 +159,7 @@ fn workshop() -> Builder {
     let tangents = file.accessor(&[127, 0, 0, 127].repeat(4), 4, 5120, "VEC4");
     let coords = file.accessor(&[0, 0, 255, 0, 255, 255, 0, 255], 4, 5121, "VEC2");
     let colors = file.accessor(&[9, 99, 250].repeat(4), 4, 5121, "VEC3");
+    file.json["accessors"][colors]["normalized"] = json!(true);
     let attributes = json!({
         "POSITION": positions, "NORMAL": normals, "TANGENT": tangents, "TEXCOORD_0": coords, "COLOR_0": colors,
     });
