@@ -24,8 +24,13 @@ fn png(bench: &Bench, name: &str) -> DisplayImage {
 
 /// Renders the stage by the binary with these flags beside `MEASURED`, and holds the picture against the truth.
 fn hold(stage: &Stage, flags: &str, table: &SheenTable, edits: &Edits) {
+    hold_file(stage.glb(), stage, flags, table, edits);
+}
+
+/// The same of a file that is to look as the stage does.
+pub fn hold_file(glb: Vec<u8>, stage: &Stage, flags: &str, table: &SheenTable, edits: &Edits) {
     let bench = Bench::new();
-    bench.put("stage.glb", stage.glb());
+    bench.put("stage.glb", glb);
     bench.put("table.csv", table.to_csv(&["of a test".to_owned()]));
     bench.put("table.dds", table.to_dds());
     bench.run(&format!("render stage.glb -o out.exr {MEASURED} {flags}"));

@@ -13,6 +13,7 @@ mod lights;
 mod modelling;
 mod opengl;
 mod overwriting;
+mod poses;
 mod radiance;
 mod reference;
 mod reference_command;
