@@ -107,11 +107,20 @@ impl Attributes {
             mesh.tangents = accessors.read(tangents, Type::Vec4, Numbers::Signed, used)?;
         }
         for (coords, accessor) in mesh.tex_coords.iter_mut().zip(self.tex_coords) {
-            if let Some(accessor) = accessor {
-                *coords = accessors.read(accessor, Type::Vec2, Numbers::Quantized, used)?;
-            }
+            let Some(accessor) = accessor else { continue };
+            *coords = if accessors.is_of(accessor, Type::Vec3) {
+                let wide: Vec<Vec3> = accessors.read(accessor, Type::Vec3, Numbers::Quantized, used)?;
+                wide.into_iter().map(Vec3::truncate).collect()
+            } else {
+                accessors.read(accessor, Type::Vec2, Numbers::Quantized, used)?
+            };
         }
         Ok(mesh)
+    }
+
+    /// Whether texture coordinates have a third component, as some exporters write them and no specification has it.
+    pub fn has_wide_tex_coords(&self, accessors: &Accessors) -> bool {
+        self.tex_coords.iter().flatten().any(|&accessor| accessors.is_of(accessor, Type::Vec3))
     }
 
     pub fn read_influences(&self, accessors: &Accessors, used: Option<&[u32]>) -> Result<Vec<Influences>, Fault> {

@@ -104,7 +104,9 @@ fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene
     scene.punctual_lights = punctual::read(root, placed, &mut notices)?;
     area::add(root, placed, &mut scene, &mut notices)?;
     if scene.instances.is_empty() {
-        return Err(Fault::new("the scene has no triangles to draw; put a mesh into it that is visible"));
+        return Err(Fault::new(
+            "the scene has no triangles to draw (points and lines are not drawn); put a visible mesh into it",
+        ));
     }
     textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
     scene.files = buffers::named_files(root, folder).into_iter().collect();

@@ -80,6 +80,9 @@ impl<'a> Reader<'a> {
         {
             return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
         }
+        if attributes.has_wide_tex_coords(&self.accessors) {
+            notices.add("of texture coordinates of three components the third is left out", || name.clone());
+        }
         let is_bound = !attributes.influences.is_empty();
         if shape.joints.is_none() {
             attributes.influences.clear();

@@ -1,9 +1,10 @@
 //! Files that break the specification where what was meant is plain: drawn, with one notice a kind.
 
 use glam::Vec3;
+use image::ImageFormat;
 use serde_json::{Value, json};
 
-use super::builder::{Builder, read};
+use super::builder::{Builder, picture, read};
 use crate::scene::{PunctualKind, Scene};
 
 /// The studio with `value` at `pointer`, and the one notice about it.
@@ -105,4 +106,19 @@ fn a_scene_that_lists_a_child_or_a_node_twice() {
     // What is in no scene, or in another, is checked as well.
     file.json["scenes"] = json!([{ "nodes": [0] }, { "nodes": [99] }]);
     assert!(read(&file.glb()).unwrap_err().contains("scene 1: there is no node 99"));
+}
+
+#[test]
+fn texture_coordinates_of_three_components() {
+    let mut file = Builder::textured_studio();
+    file.texture(&picture(ImageFormat::Png, 2, 2));
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 0 });
+    let plain = file.read();
+    let wide = plain.meshes[0].tex_coords[0].iter().map(|coords| coords.extend(7.0));
+    let wide = file.vectors(&wide.collect::<Vec<_>>());
+    file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(wide);
+    let scene = file.read();
+    let kind = "of texture coordinates of three components the third is left out";
+    assert_eq!(scene.notices, [format!("{kind}: mesh 0 primitive 0")]);
+    assert_eq!(scene.meshes[0].tex_coords, plain.meshes[0].tex_coords);
 }
