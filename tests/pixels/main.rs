@@ -8,6 +8,7 @@ mod compare;
 mod comparison;
 mod documented;
 mod embedded;
+mod far;
 mod golden;
 mod lights;
 mod modelling;
