@@ -45,7 +45,8 @@ pub fn apply(
     for vertex in 0..mesh.positions.len() {
         let world_from_mesh = blend(vertex, sets, joints, &mut oddities)?;
         let p_world = world_from_mesh.transform_point3(mesh.positions[vertex].as_dvec3());
-        if let Some(value) = p_world.to_array().into_iter().find(|value| !(value.abs() <= f64::from(FARTHEST))) {
+        let is_far = |value: &f64| value.is_nan() || value.abs() > f64::from(FARTHEST);
+        if let Some(value) = p_world.to_array().into_iter().find(is_far) {
             let what = format_args!("vertex {vertex} is posed {value:.2e} m away; bring it within {FARTHEST:e} m");
             return Err(Fault::new(what));
         }
@@ -74,15 +75,18 @@ pub fn apply(
 /// do, and the file's is kept.
 fn turn(mesh: &mut Mesh, vertex: usize, world_from_mesh: DMat3, is_mirrored: bool) {
     if let Some(normal) = mesh.normals.get_mut(vertex) {
-        let turned = (normal_matrix(world_from_mesh) * normal.as_dvec3()).try_normalize();
-        *normal = turned.map_or(*normal, |turned| turned.as_vec3());
+        let turned = normal_matrix(world_from_mesh) * normal.as_dvec3();
+        *normal = unit(turned).unwrap_or(*normal);
     }
     if let Some(tangent) = mesh.tangents.get_mut(vertex) {
-        let own = tangent.truncate();
-        let turned: Option<DVec3> = (world_from_mesh * own.as_dvec3()).try_normalize();
-        let side = if is_mirrored { -tangent.w } else { tangent.w };
-        *tangent = turned.map_or(own, |turned: DVec3| -> Vec3 { turned.as_vec3() }).extend(side);
+        let (own, side) = (tangent.truncate(), if is_mirrored { -tangent.w } else { tangent.w });
+        let turned = world_from_mesh * own.as_dvec3();
+        *tangent = unit(turned).unwrap_or(own).extend(side);
     }
+}
+
+fn unit(vector: DVec3) -> Option<Vec3> {
+    vector.try_normalize().map(|unit| unit.as_vec3())
 }
 
 /// The mean of the matrices of a vertex's joints by their weights, whatever the sum of these. Where no joint has one,
