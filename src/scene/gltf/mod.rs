@@ -11,12 +11,15 @@ mod attributes;
 mod buffers;
 mod cameras;
 mod container;
+mod decoded;
+mod draco;
 mod elements;
 mod extensions;
 mod images;
 mod json;
 mod material_extensions;
 mod materials;
+mod meshopt;
 mod nodes;
 mod primitives;
 mod punctual;
@@ -35,6 +38,7 @@ use super::{Scene, framing, lights, rig};
 use ::gltf::json::Root;
 use accessor::Accessors;
 use assembly::Assembly;
+use decoded::Decoded;
 use images::Sources;
 
 /// Extensions of materials and textures that a file may require.
@@ -71,10 +75,13 @@ pub fn from_slice(bytes: &[u8], name: &str) -> Result<Scene, SceneError> {
 
 /// What the file holds, and what there is to say about it.
 fn read(bytes: &[u8], folder: Option<&Path>) -> Result<(Scene, Notices), Fault> {
-    let document = container::parse(bytes)?;
+    let mut document = container::parse(bytes)?;
+    check_extensions(&document.root)?;
+    let mut buffers = buffers::load(&document, folder)?;
+    let mut decoded = Decoded::new(&mut document.root, &mut buffers);
+    meshopt::decode(&mut decoded)?;
+    draco::decode(&mut decoded)?;
     let root = &document.root;
-    check_extensions(root)?;
-    let buffers = buffers::load(&document, folder)?;
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
     references::check(root)?;

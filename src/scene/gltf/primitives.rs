@@ -8,6 +8,7 @@ use gltf::json::validation::Checked::Valid;
 use super::Fault;
 use super::accessor::{Accessors, Numbers};
 use super::attributes::Attributes;
+use super::buffers;
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Mesh, TextureUse, tangents};
 
@@ -25,7 +26,7 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(accessors: Accessors<'a>) -> Self {
-        let bytes: u64 = accessors.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
+        let bytes = buffers::weight(accessors.buffers);
         Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
@@ -50,11 +51,6 @@ impl<'a> Reader<'a> {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
-        if let Some(codec) = compression(primitive)
-            && !self.accessors.has_data(attributes.positions)
-        {
-            return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
-        }
         let Corners { used, triangles: mut indices } = self.corners(primitive, &attributes, mode)?;
         let used = used.as_deref();
         let positions = self.accessors.read(attributes.positions, Type::Vec3, Numbers::Quantized, used)?;
@@ -136,12 +132,6 @@ struct Corners {
     used: Option<Vec<u32>>,
     /// Vertices are counted among those that are read.
     triangles: Vec<[u32; 3]>,
-}
-
-/// The extension by which a primitive's data is compressed, if it is.
-fn compression(primitive: &Primitive) -> Option<&str> {
-    let names = primitive.extensions.as_ref()?.others.keys();
-    names.map(String::as_str).find(|name| name.contains("compression"))
 }
 
 /// Corners taken three by three, or as a strip or fan; an incomplete last triangle is left out.

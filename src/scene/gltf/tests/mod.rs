@@ -3,6 +3,7 @@
 mod attributes;
 mod builder;
 mod bytes;
+mod compressed;
 mod extras;
 mod files;
 mod images;
