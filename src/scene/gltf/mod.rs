@@ -17,6 +17,7 @@ mod elements;
 mod extensions;
 mod images;
 mod json;
+mod ktx2;
 mod material_extensions;
 mod materials;
 mod meshopt;
@@ -50,6 +51,7 @@ const SERVED: &[&str] = &[
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_unlit",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 /// The most characters that are kept of a name: many things may share one.

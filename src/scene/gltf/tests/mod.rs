@@ -7,6 +7,7 @@ mod compressed;
 mod extras;
 mod files;
 mod images;
+mod ktx2;
 mod lights;
 mod materials;
 mod mutations;
