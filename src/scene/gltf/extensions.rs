@@ -23,6 +23,15 @@ pub const SERVED: [&str; 7] = [
 /// Codecs that compress what buffers hold.
 const CODECS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
+/// How a file is made one that does not require an extension.
+pub fn way_without(name: &str) -> &'static str {
+    match name {
+        "EXT_texture_avif" => "convert its images: gltf-transform png --formats avif IN.glb OUT.glb",
+        "KHR_materials_pbrSpecularGlossiness" => "convert its materials: gltf-transform metalrough IN.glb OUT.glb",
+        _ => "export the file without it",
+    }
+}
+
 /// What the file as a whole holds under an extension's name, if anything.
 pub fn of_root<T: DeserializeOwned>(root: &Root, name: &str) -> Result<Option<T>, Fault> {
     root.extensions

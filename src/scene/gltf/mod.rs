@@ -117,7 +117,8 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
     match root.extensions_required.iter().find(|name| !is_served(name)) {
         None => Ok(()),
         Some(name) => {
-            let what = format_args!("requires {}, which is not served; export the file without it", cut(name));
+            let way = extensions::way_without(name);
+            let what = format_args!("requires {}, which is not served; {way}", cut(name));
             Err(Fault::at("extensionsRequired", what))
         }
     }
