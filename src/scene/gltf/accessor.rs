@@ -73,8 +73,7 @@ impl<'a> Accessors<'a> {
                 return Err(wrong(format!("byteStride {stride} is no multiple of 4 from 4 to 252")));
             }
         }
-        let bytes: u64 = self.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
-        let mut budget = bytes.saturating_mul(SPARSE_SHARING);
+        let mut budget = buffers::weight(self.buffers).saturating_mul(SPARSE_SHARING);
         (0..self.root.accessors.len()).try_for_each(|index| {
             self.layout(index)?;
             self.check_sparse(index, &mut budget)

@@ -24,6 +24,8 @@ pub enum Bytes<'a> {
     /// In the .glb itself.
     Within(&'a [u8]),
     Read(Rc<Vec<u8>>),
+    /// From what others hold.
+    Decoded(Vec<u8>),
 }
 
 impl Deref for Bytes<'_> {
@@ -33,6 +35,7 @@ impl Deref for Bytes<'_> {
         match self {
             Self::Within(bytes) => bytes,
             Self::Read(bytes) => bytes,
+            Self::Decoded(bytes) => bytes,
         }
     }
 }
@@ -66,15 +69,18 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
     // Many buffers may name the same file: its bytes are held once.
     let mut files = Files::new();
     let mut buffers = Vec::with_capacity(document.root.buffers.len());
+    let stand_ins = extensions::stand_ins(&document.root);
     for (index, buffer) in document.root.buffers.iter().enumerate() {
+        if stand_ins[index] {
+            buffers.push(Bytes::Within(&[]));
+            continue;
+        }
         let place = || label("buffer", index, buffer.name.as_deref());
         let bytes = match (&buffer.uri, document.binary) {
             (Some(uri), _) => Bytes::Read(fetch(uri, folder, &mut files).map_err(|fault| Fault::at(place(), fault))?),
             (None, Some(binary)) if index == 0 => Bytes::Within(binary),
             (None, _) => {
-                let codec = buffer.extensions.as_ref().and_then(|extensions| extensions::codec(&extensions.others));
-                let codec = codec.unwrap_or("no URI; a compressed one perhaps");
-                let what = format_args!("has no data ({codec}); export the file without compression");
+                let what = "has no uri, and the file holds no data for it; export the file again";
                 return Err(Fault::at(place(), what));
             }
         };
@@ -86,6 +92,14 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
         buffers.push(bytes);
     }
     Ok(buffers)
+}
+
+/// How many bytes buffers count for where memory is granted by them, whatever they claim to hold: a file's count once,
+/// however many buffers name it, and a quarter of those that are decoded, to which memory has been granted already.
+pub fn weight(buffers: &[Bytes]) -> u64 {
+    let weigh = |bytes: &Bytes| bytes.len() as u64 / if matches!(bytes, Bytes::Decoded(_)) { 4 } else { 1 };
+    let parts: HashMap<_, _> = buffers.iter().map(|bytes| (bytes.as_ptr(), weigh(bytes))).collect();
+    parts.into_values().sum()
 }
 
 /// The files that the document's buffers and images name.

@@ -1,6 +1,6 @@
 //! Extensions of the file as a whole and of its nodes.
 
-use gltf::json::Root;
+use gltf::json::{Buffer, Root};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
@@ -10,17 +10,29 @@ use super::nodes::node_label;
 use crate::scene::notices::Notices;
 
 /// Those that a file may require, besides those of materials and textures.
-pub const SERVED: [&str; 6] = [
+pub const SERVED: [&str; 9] = [
     "EXT_lights_area",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_variants",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
 ];
 
 /// Codecs that compress what buffers hold.
 const CODECS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// How a file is made one that does not require an extension.
+pub fn way_without(name: &str) -> &'static str {
+    match name {
+        "EXT_texture_avif" => "convert its images: gltf-transform png --formats avif IN.glb OUT.glb",
+        "KHR_materials_pbrSpecularGlossiness" => "convert its materials: gltf-transform metalrough IN.glb OUT.glb",
+        _ => "export the file without it",
+    }
+}
 
 /// What the file as a whole holds under an extension's name, if anything.
 pub fn of_root<T: DeserializeOwned>(root: &Root, name: &str) -> Result<Option<T>, Fault> {
@@ -95,7 +107,27 @@ pub fn note(root: &Root, notices: &mut Notices) {
     }
 }
 
-/// The extension that compresses a buffer's data, if there is one.
-pub fn codec(extensions: &Map<String, Value>) -> Option<&'static str> {
-    CODECS.into_iter().find(|&name| extensions.contains_key(name))
+/// The extension that says how the data of a buffer or view is compressed, if there is one.
+pub fn codec(extensions: &Map<String, Value>) -> Option<(&'static str, &Value)> {
+    CODECS.into_iter().find_map(|name| Some((name, extensions.get(name)?)))
+}
+
+/// Whether each buffer only stands in for what is decoded from others: its own data, if it has any, is not read.
+pub fn stand_ins(root: &Root) -> Vec<bool> {
+    let marked = |buffer: &Buffer| buffer.extensions.as_ref().is_some_and(|found| codec(&found.others).is_some());
+    let mut stand_ins: Vec<bool> = root.buffers.iter().map(marked).collect();
+    let codecs = root.buffer_views.iter().map(|view| codec(&view.extensions.as_ref()?.others));
+    let views = || root.buffer_views.iter().zip(codecs.clone());
+    let mut mark = |buffer: usize, is_one| stand_ins.get_mut(buffer).into_iter().for_each(|found| *found = is_one);
+    for (view, codec) in views() {
+        if codec.is_some() {
+            mark(view.buffer.value(), true);
+        }
+    }
+    // Any other use of its data outweighs this.
+    for (view, codec) in views() {
+        let used = codec.map_or(Some(view.buffer.value() as u64), |(_, value)| value.get("buffer")?.as_u64());
+        used.and_then(|buffer| usize::try_from(buffer).ok()).into_iter().for_each(|buffer| mark(buffer, false));
+    }
+    stand_ins
 }

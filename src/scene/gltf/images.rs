@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::Fault;
 use super::buffers::{self, Bytes};
+use super::ktx2;
 use crate::scene::error::label;
 use crate::scene::mipmap::half_of;
 use crate::scene::notices::Notices;
@@ -41,13 +42,20 @@ pub struct Wanted {
     pub is_color: bool,
 }
 
+/// What an image is decoded by.
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Ktx2,
+    Other(ImageFormat),
+}
+
 /// An image that is not decoded yet.
 struct Encoded<'a> {
     /// As errors name it.
     place: String,
     name: String,
     bytes: &'a [u8],
-    format: ImageFormat,
+    format: Format,
     is_color: bool,
     size: [u32; 2],
 }
@@ -117,13 +125,14 @@ fn head<'a>(sources: &Sources, &Wanted { index, is_color }: &Wanted, bytes: &'a 
     Ok(Encoded { place, name, bytes, format, is_color, size })
 }
 
-fn format_and_size(bytes: &[u8]) -> Result<(ImageFormat, [u32; 2]), String> {
-    let format = match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => format,
-        _ if bytes.starts_with(b"\xabKTX") => return Err("is a KTX image; export it as PNG, JPEG or WebP".to_owned()),
-        _ => return Err("is no PNG, JPEG or WebP image; export it as one of these".to_owned()),
+fn format_and_size(bytes: &[u8]) -> Result<(Format, [u32; 2]), String> {
+    let (format, [width, height]) = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
+            (Format::Other(format), decoder(bytes, format)?.dimensions().into())
+        }
+        _ if ktx2::is_ktx2(bytes) => (Format::Ktx2, ktx2::size(bytes)?),
+        _ => return Err("is no PNG, JPEG, WebP or KTX 2.0 image; export it as one of these".to_owned()),
     };
-    let (width, height) = decoder(bytes, format)?.dimensions();
     if width == 0 || height == 0 || width.max(height) > SIDE_MAX {
         return Err(format!("is {width} x {height}; give an image of 1 to {SIDE_MAX} texels a side"));
     }
@@ -143,22 +152,27 @@ fn broken(error: &image::ImageError) -> String {
 }
 
 fn decode(encoded: &Encoded) -> Result<Image, Fault> {
-    let wrong = |what: String| Fault::at(&encoded.place, what);
-    let decoder = decoder(encoded.bytes, encoded.format).map_err(wrong)?;
-    let decoded = DynamicImage::from_decoder(decoder).map_err(|error| wrong(broken(&error)))?;
-    if encoded.format == ImageFormat::Jpeg && !jpeg_ends(encoded.bytes) {
-        return Err(wrong("is cut short; copy or export it again".to_owned()));
-    }
-    let decoded = decoded.into_rgba8();
-    let size = [decoded.width(), decoded.height()];
-    let bytes = decoded.into_raw();
+    let texels = match encoded.format {
+        Format::Ktx2 => ktx2::decode(encoded.bytes),
+        Format::Other(format) => texels(encoded.bytes, format),
+    };
+    let bytes = texels.map_err(|what| Fault::at(&encoded.place, what))?;
     let encoding = if encoded.is_color { Encoding::Colors } else { Encoding::Numbers };
-    let mut level = Level { size, texels: Cow::Borrowed(bytes.as_chunks().0) };
+    let mut level = Level { size: encoded.size, texels: Cow::Borrowed(bytes.as_chunks().0) };
     while kept_size(level.size) != level.size {
         level = level.halved(encoding);
     }
     let [width, height] = level.size;
     Ok(Image { name: encoded.name.clone(), width, height, texels: level.texels.into_owned() })
+}
+
+/// The texels of an image file that is neither of KTX's.
+fn texels(bytes: &[u8], format: ImageFormat) -> Result<Vec<u8>, String> {
+    let decoded = DynamicImage::from_decoder(decoder(bytes, format)?).map_err(|error| broken(&error))?;
+    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
+        return Err("is cut short; copy or export it again".to_owned());
+    }
+    Ok(decoded.into_rgba8().into_raw())
 }
 
 /// An image's size after it has been halved until no side is too long to be kept.

@@ -11,6 +11,8 @@ mod attributes;
 mod buffers;
 mod cameras;
 mod container;
+mod decoded;
+mod draco;
 mod elements;
 mod exact;
 mod extensions;
@@ -18,9 +20,10 @@ mod factors;
 mod images;
 mod instancing;
 mod json;
-
+mod ktx2;
 mod material_extensions;
 mod materials;
+mod meshopt;
 mod morph;
 mod nodes;
 mod options;
@@ -44,6 +47,7 @@ use super::{Scene, framing, lights, rig};
 use ::gltf::json::Root;
 use accessor::Accessors;
 use assembly::Assembly;
+use decoded::Decoded;
 use images::Sources;
 
 pub use options::{Options, Pose};
@@ -57,6 +61,7 @@ const SERVED: &[&str] = &[
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_unlit",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 /// The most characters that are kept of a name: many things may share one.
@@ -83,10 +88,13 @@ pub fn from_slice(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, 
 /// What the file holds, and what there is to say about it.
 fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene, Notices), Fault> {
     let mut notices = Notices::default();
-    let document = container::parse(bytes, &mut notices)?;
+    let mut document = container::parse(bytes, &mut notices)?;
+    check_extensions(&document.root)?;
+    let mut buffers = buffers::load(&document, folder)?;
+    let mut decoded = Decoded::new(&mut document.root, &mut buffers);
+    meshopt::decode(&mut decoded)?;
+    draco::decode(&mut decoded)?;
     let (root, exact) = (&document.root, &document.exact);
-    check_extensions(root)?;
-    let buffers = buffers::load(&document, folder)?;
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
     references::check(root)?;
@@ -127,7 +135,8 @@ fn check_extensions(root: &Root) -> Result<(), Fault> {
     match root.extensions_required.iter().find(|name| !is_served(name)) {
         None => Ok(()),
         Some(name) => {
-            let what = format_args!("requires {}, which is not served; export the file without it", cut(name));
+            let way = extensions::way_without(name);
+            let what = format_args!("requires {}, which is not served; {way}", cut(name));
             Err(Fault::at("extensionsRequired", what))
         }
     }

@@ -8,7 +8,7 @@ use super::Fault;
 use super::accessor::Accessors;
 use super::attributes::{Attributes, WHITE};
 use super::morph::Deltas;
-use super::{morph, skinning};
+use super::{buffers, morph, skinning};
 use crate::scene::notices::Notices;
 use crate::scene::{Material, Mesh, TextureUse, tangents};
 
@@ -45,7 +45,7 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(accessors: Accessors<'a>) -> Self {
-        let bytes: u64 = accessors.root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
+        let bytes = buffers::weight(accessors.buffers);
         Self { accessors, budget: bytes.saturating_mul(SHARING).saturating_add(SHARING_FLOOR) }
     }
 
@@ -75,11 +75,6 @@ impl<'a> Reader<'a> {
             notices.add("primitives without positions are not drawn", || name);
             return Ok(None);
         };
-        if let Some(codec) = compression(primitive)
-            && !self.accessors.has_data(attributes.positions)
-        {
-            return Err(Fault::new(format_args!("is compressed by {codec}; export the file without compression")));
-        }
         if attributes.has_wide_tex_coords(&self.accessors) {
             notices.add("of texture coordinates of three components the third is left out", || name.clone());
         }
@@ -212,12 +207,6 @@ struct Corners {
     used: Option<Vec<u32>>,
     /// Vertices are counted among those that are read.
     triangles: Vec<[u32; 3]>,
-}
-
-/// The extension by which a primitive's data is compressed, if it is.
-fn compression(primitive: &Primitive) -> Option<&str> {
-    let names = primitive.extensions.as_ref()?.others.keys();
-    names.map(String::as_str).find(|name| name.contains("compression"))
 }
 
 /// Corners taken three by three, or as a strip or fan; an incomplete last triangle is left out.

@@ -16,11 +16,12 @@ use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Filter, Material, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap};
 
-const WEBP: &str = "EXT_texture_webp";
+/// Extensions that name an image of another format than glTF's own, the better one first where a texture has both.
+const FORMATS: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
 
-/// EXT_texture_webp as the JSON holds it.
+/// Such an extension as the JSON holds it.
 #[derive(Deserialize)]
-struct Webp {
+struct Format {
     source: u64,
 }
 
@@ -85,8 +86,9 @@ fn image(root: &Root, index: usize, notices: &mut Notices) -> Result<Option<usiz
     let texture = &root.textures[index];
     let place = || texture_label(root, index);
     let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
-    if let Some(webp) = others.and_then(|others| others.get(WEBP)) {
-        return webp_source(webp, root.images.len()).map(Some).map_err(|what| Fault::at(place(), what));
+    let format = others.and_then(|others| FORMATS.into_iter().find_map(|name| Some((name, others.get(name)?))));
+    if let Some((name, format)) = format {
+        return format_source(name, format, root.images.len()).map(Some).map_err(|what| Fault::at(place(), what));
     }
     if has_source(texture) {
         return Ok(Some(texture.source.value()));
@@ -100,10 +102,10 @@ fn image(root: &Root, index: usize, notices: &mut Notices) -> Result<Option<usiz
     Ok(None)
 }
 
-fn webp_source(webp: &Value, images: usize) -> Result<usize, String> {
-    let Webp { source } = object(WEBP, webp)?;
+fn format_source(name: &str, format: &Value, images: usize) -> Result<usize, String> {
+    let Format { source } = object(name, format)?;
     let found = usize::try_from(source).ok().filter(|&source| source < images);
-    found.ok_or_else(|| format!("{WEBP}: there is no image {source}; export the file again"))
+    found.ok_or_else(|| format!("{name}: there is no image {source}; export the file again"))
 }
 
 /// Whether a texture has a source. Where it has none, the JSON's type holds an index in its place that no file can

@@ -218,6 +218,11 @@ pub fn encoded(image: DynamicImage, format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
+/// The bytes that a text spells.
+pub fn from_base64(text: &str) -> Vec<u8> {
+    STANDARD.decode(text).unwrap()
+}
+
 /// Reads a file; what is read must be whole.
 pub fn read(bytes: &[u8]) -> Result<Scene, String> {
     read_as(bytes, &Options::default())

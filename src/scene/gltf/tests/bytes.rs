@@ -60,7 +60,7 @@ fn containers_that_lie() {
         (16, 0x004e4942, "'BIN\\x00'"),
         (binary, u32::MAX - 3, "BIN chunk is cut short"),
         (binary, 0, "buffer 0"),
-        (binary + 4, 7, "buffer 0: has no data"),
+        (binary + 4, 7, "buffer 0: has no uri"),
     ] {
         let mut bytes = good.clone();
         bytes[at..at + 4].copy_from_slice(&u32::to_le_bytes(word));

@@ -3,10 +3,12 @@
 mod attributes;
 mod builder;
 mod bytes;
+mod compressed;
 mod extras;
 mod files;
 mod images;
 mod instancing;
+mod ktx2;
 mod lenience;
 mod lights;
 mod materials;

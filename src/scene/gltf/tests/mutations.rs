@@ -9,6 +9,7 @@ use rand_pcg::Pcg32;
 use serde_json::{Value, json};
 
 use super::builder::{Builder, glb, picture, read};
+use super::{compressed, ktx2};
 
 /// Reads `bytes`; `read` checks the scene. Tells whether there is one.
 fn survives(bytes: &[u8]) -> bool {
@@ -99,6 +100,19 @@ fn changed_bytes_of_images() {
         read += usize::from(survives(&glb(json.as_bytes(), &bytes)));
     }
     assert!(read > ROUNDS / 20 && read < ROUNDS, "{read} of {ROUNDS} are read");
+}
+
+#[test]
+fn changed_bytes_of_compressed_data() {
+    let mut random = Pcg32::seed_from_u64(6);
+    const ROUNDS: usize = 2000;
+    let [mipmapped, plain, etc1s] = ktx2::files().map(|file| ktx2::with_image(&file));
+    for file in [compressed::packed_studio(), compressed::draco_studio(), mipmapped, plain, etc1s] {
+        let read = read_with_changed_buffer(&file, &mut random, ROUNDS);
+        assert!(read > ROUNDS / 20 && read < ROUNDS, "{read} of {ROUNDS} are read");
+        let read = read_with_changed_values(&file, &mut random, ROUNDS);
+        assert!(read > ROUNDS / 100 && read < ROUNDS / 2, "{read} of {ROUNDS} are read");
+    }
 }
 
 /// The studio with every extension of materials, and images of every format.

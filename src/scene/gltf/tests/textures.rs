@@ -79,12 +79,12 @@ fn what_is_used_is_read_and_no_more() {
 }
 
 #[test]
-fn webp_goes_before_the_source_and_other_formats_do_not() {
+fn formats_that_are_served_go_before_the_source_and_others_do_not() {
     let extension = |name: &str, source: u32| json!({ name: { "source": source } });
     let file = with_textures(&[
         json!({ "source": 0, "extensions": extension("EXT_texture_webp", 1) }),
+        json!({ "source": 2, "extensions": extension("EXT_texture_avif", 0) }),
         json!({ "source": 2, "extensions": extension("KHR_texture_basisu", 0) }),
-        json!({ "extensions": extension("EXT_texture_webp", 0) }),
     ]);
     let scene = file.read();
     let width = |slot| {
@@ -98,22 +98,21 @@ fn webp_goes_before_the_source_and_other_formats_do_not() {
 
 #[test]
 fn textures_without_an_image_are_left_out() {
-    let basisu = json!({ "KHR_texture_basisu": { "source": 0 } });
-    let mut file =
-        with_textures(&[json!({ "extensions": basisu }), json!({ "name": "grain" }), json!({ "source": 2 })]);
+    let avif = json!({ "EXT_texture_avif": { "source": 0 } });
+    let mut file = with_textures(&[json!({ "extensions": avif }), json!({ "name": "grain" }), json!({ "source": 2 })]);
     let scene = file.read();
     assert_eq!(
         scene.notices,
         [
-            "textures in formats that are not served are left out: KHR_texture_basisu of texture 0",
+            "textures in formats that are not served are left out: EXT_texture_avif of texture 0",
             "textures without an image are left out: texture 1 \"grain\"",
         ]
     );
     let material = &scene.materials[0];
     assert_eq!(TextureSlot::ALL.into_iter().filter(|&slot| material.texture(slot).is_some()).count(), 1);
     assert_eq!((scene.textures.len(), scene.images.len()), (1, 1));
-    file.json["extensionsRequired"] = json!(["KHR_texture_basisu"]);
-    assert!(read(&file.glb()).unwrap_err().contains("requires KHR_texture_basisu"));
+    file.json["extensionsRequired"] = json!(["EXT_texture_avif"]);
+    assert!(read(&file.glb()).unwrap_err().contains("requires EXT_texture_avif"));
 }
 
 #[test]

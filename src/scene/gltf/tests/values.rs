@@ -246,3 +246,17 @@ fn accessors_of_the_wrong_kind() {
         ),
     ]);
 }
+
+#[test]
+fn extensions_that_are_not_served_have_a_way_without_them() {
+    for (name, way) in [
+        ("EXT_texture_avif", "gltf-transform png --formats avif IN.glb OUT.glb"),
+        ("KHR_materials_pbrSpecularGlossiness", "gltf-transform metalrough IN.glb OUT.glb"),
+        ("VENDOR_thing", "export the file without it"),
+    ] {
+        let mut file = Builder::studio();
+        file.json["extensionsRequired"] = json!([name]);
+        let error = read(&file.glb()).unwrap_err();
+        assert!(error.contains(&format!("requires {name}, which is not served; ")) && error.ends_with(way), "{error}");
+    }
+}
