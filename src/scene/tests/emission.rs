@@ -113,6 +113,24 @@ fn triangles_count_by_their_area_in_the_world() {
 }
 
 #[test]
+fn each_instance_has_the_mean_over_its_own_area() {
+    // A white triangle in the plane z = 0, and a black one in y = 0.
+    let mut scene = emitter(1, [2, 1], |index| [if index == 0 { 255 } else { 0 }; 4]);
+    let mesh = &mut scene.meshes[0];
+    mesh.positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ZERO, Vec3::X, Vec3::Z].to_vec();
+    mesh.tex_coords[0] = [[Vec2::new(0.25, 0.5); 3], [Vec2::new(0.75, 0.5); 3]].concat();
+    mesh.indices = (0..6).collect();
+    scene.instances.extend([scene.instances[0].clone(), scene.instances[0].clone()]);
+    scene.instances[1].world_from_mesh = Mat4::from_scale(Vec3::new(1.0, 3.0, 1.0));
+    scene.instances[2].world_from_mesh = Mat4::from_scale(Vec3::new(1.0, 1.0, 4.0));
+    let mut radiances = Radiances::new(&scene);
+    for (instance, share) in [0.5, 0.75, 0.2].into_iter().enumerate() {
+        assert!((radiances.of(instance).x - 4.0 * share).abs() < 1e-5, "{instance}");
+        assert!(radiances.is_bright(instance));
+    }
+}
+
+#[test]
 fn odd_coordinates_give_finite_means() {
     for odd in [f32::NAN, f32::INFINITY, f32::MAX, -1e20] {
         for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
