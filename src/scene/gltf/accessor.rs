@@ -139,7 +139,7 @@ impl<'a> Accessors<'a> {
         Ok(self.elements(index)?.count)
     }
 
-    /// Whether there is data to be read: in a compressed mesh there may be none.
+    /// Whether there is data to be read: else all elements are zero.
     pub fn has_data(&self, index: usize) -> bool {
         self.root
             .accessors
@@ -179,13 +179,9 @@ impl<'a> Accessors<'a> {
         Fault::at(label("accessor", index, name), "its type or componentType is none of glTF's; export the file again")
     }
 
-    /// The elements; an error where there is no data for them.
+    /// The elements; those that no view holds are zero (glTF 2.0, section 5.1.1).
     fn elements(&self, index: usize) -> Result<Elements<'a>, Fault> {
         let accessor = self.get(index)?;
-        if !self.has_data(index) {
-            let what = "has no bufferView (a compressed mesh perhaps); export the file without compression";
-            return Err(Fault::at(label("accessor", index, accessor.name.as_deref()), what));
-        }
         let size = self.size(index)?;
         let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
         let sparse = self.sparse(index)?;

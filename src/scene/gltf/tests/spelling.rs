@@ -176,3 +176,15 @@ fn paths_with_dot_segments() {
         assert!(load(uri).unwrap_err().contains(what), "{uri}");
     }
 }
+
+#[test]
+fn elements_that_no_view_holds_are_zero() {
+    let mut file = full();
+    file.json["accessors"][1] = json!({ "count": 4, "componentType": 5126, "type": "VEC3" });
+    let scene = file.read();
+    assert_eq!(scene.notices[0], "normals of no length are replaced by those of the faces: mesh 0 primitive 0");
+    assert_eq!(scene.meshes[0].normals, [glam::Vec3::Z; 4]);
+    file.json["accessors"][0] = json!({ "count": 4, "componentType": 5126, "type": "VEC3" });
+    file.json["scenes"] = json!([{ "nodes": [0, 1] }]);
+    assert!(read(&file.glb()).unwrap_err().contains("no triangles to draw"));
+}

@@ -235,14 +235,14 @@ fn accessors_of_the_wrong_kind() {
         (
             "/accessors/0",
             json!({ "count": 4_000_000_000_u32, "componentType": 5126, "type": "VEC3" }),
-            "accessor 0",
-            "no bufferView",
+            "mesh 0 primitive 0",
+            "4000000000 positions and 4 normals",
         ),
         (
             "/accessors/2",
             json!({ "count": 4_000_000_000_u32, "componentType": 5125, "type": "SCALAR" }),
-            "accessor 2",
-            "no bufferView",
+            "mesh 0 primitive 0",
+            "share the same accessors",
         ),
     ]);
 }
