@@ -121,10 +121,10 @@ fn material_uv(slot: u32, tex_coords: vec4f) -> vec2f {
 // Pixels beside a triangle that is seen edge-on may have coordinates anywhere. What is averaged over many copies of the
 // texture needs no more of them than where they are within two, by which mirroring goes; but software drivers average
 // texel by texel over whatever lies between the pixels' coordinates, and may take hours.
-fn material_texel(map: texture_2d<f32>, map_sampler: sampler, uv: vec2f) -> vec4f {
+fn material_texel(map: texture_2d<f32>, map_sampler: sampler, slot: u32, tex_coords: vec4f) -> vec4f {
+    let uv = material_uv(slot, tex_coords);
     let copies = max(abs(dpdx(uv)), abs(dpdy(uv)));
-    let within_two = uv - 2.0 * floor(0.5 * uv);
-    return textureSample(map, map_sampler, select(uv, within_two, copies > vec2f(MATERIAL_COPIES)));
+    return textureSample(map, map_sampler, select(uv, uv - 2.0 * floor(0.5 * uv), copies > vec2f(MATERIAL_COPIES)));
 }
 
 fn material_textured(
@@ -134,57 +134,47 @@ fn material_textured(
     surface.base_color *= color.rgb;
     surface.opacity *= color.a;
     if material_has(MATERIAL_BASE_COLOR) {
-        let uv = material_uv(MATERIAL_BASE_COLOR, tex_coords);
-        let texel = material_texel(material_base_color, material_base_color_sampler, uv);
+        let texel = material_texel(material_base_color, material_base_color_sampler, MATERIAL_BASE_COLOR, tex_coords);
         surface.base_color *= texel.rgb;
         surface.opacity *= texel.a;
     }
     if material_has(MATERIAL_METALLIC_ROUGHNESS) {
-        let uv = material_uv(MATERIAL_METALLIC_ROUGHNESS, tex_coords);
-        let texel = material_texel(material_metallic_roughness, material_metallic_roughness_sampler, uv);
+        let texel = material_texel(material_metallic_roughness, material_metallic_roughness_sampler, MATERIAL_METALLIC_ROUGHNESS, tex_coords);
         surface.roughness *= texel.g;
         surface.metallic *= texel.b;
     }
     if VARIANT_NORMAL_MAP {
-        let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
-        let texel = material_texel(material_normal, material_normal_sampler, uv);
+        let texel = material_texel(material_normal, material_normal_sampler, MATERIAL_NORMAL_MAP, tex_coords);
         surface.normal_length = 1.0 - (1.0 - texel.a) * (1.0 - texel.a);
         let mapped = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
         let across = tangent.w * cross(normal, tangent.xyz);
         surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
     }
     if material_has(MATERIAL_OCCLUSION) {
-        let uv = material_uv(MATERIAL_OCCLUSION, tex_coords);
-        let texel = material_texel(material_occlusion, material_occlusion_sampler, uv);
+        let texel = material_texel(material_occlusion, material_occlusion_sampler, MATERIAL_OCCLUSION, tex_coords);
         surface.occlusion = 1.0 + material_factors[material].occlusion_strength * (texel.r - 1.0);
     }
     if material_has(MATERIAL_EMISSION) {
-        let uv = material_uv(MATERIAL_EMISSION, tex_coords);
-        surface.emission *= material_texel(material_emission, material_emission_sampler, uv).rgb;
+        surface.emission *= material_texel(material_emission, material_emission_sampler, MATERIAL_EMISSION, tex_coords).rgb;
     }
     if material_has(MATERIAL_SPECULAR) {
-        let uv = material_uv(MATERIAL_SPECULAR, tex_coords);
-        let strength = material_texel(material_specular, material_specular_sampler, uv).a;
+        let strength = material_texel(material_specular, material_specular_sampler, MATERIAL_SPECULAR, tex_coords).a;
         surface.f0 *= strength;
         surface.f90 *= strength;
     }
     if material_has(MATERIAL_SPECULAR_COLOR) {
-        let uv = material_uv(MATERIAL_SPECULAR_COLOR, tex_coords);
-        surface.f0 *= material_texel(material_specular_color, material_specular_color_sampler, uv).rgb;
+        surface.f0 *= material_texel(material_specular_color, material_specular_color_sampler, MATERIAL_SPECULAR_COLOR, tex_coords).rgb;
     }
     if material_has(MATERIAL_SHEEN_COLOR) {
-        let uv = material_uv(MATERIAL_SHEEN_COLOR, tex_coords);
-        surface.sheen_color *= material_texel(material_sheen_color, material_sheen_color_sampler, uv).rgb;
+        surface.sheen_color *= material_texel(material_sheen_color, material_sheen_color_sampler, MATERIAL_SHEEN_COLOR, tex_coords).rgb;
     }
     if material_has(MATERIAL_SHEEN_ROUGHNESS) {
-        let uv = material_uv(MATERIAL_SHEEN_ROUGHNESS, tex_coords);
-        let texel = material_texel(material_sheen_roughness, material_sheen_roughness_sampler, uv);
+        let texel = material_texel(material_sheen_roughness, material_sheen_roughness_sampler, MATERIAL_SHEEN_ROUGHNESS, tex_coords);
         let factors = &material_factors[material];
         surface.sheen_alpha = material_alpha_from_roughness((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
     }
     if material_has(MATERIAL_SHEEN_WEIGHT) {
-        let uv = material_uv(MATERIAL_SHEEN_WEIGHT, tex_coords);
-        let weight = material_texel(material_sheen_weight, material_sheen_weight_sampler, uv).r;
+        let weight = material_texel(material_sheen_weight, material_sheen_weight_sampler, MATERIAL_SHEEN_WEIGHT, tex_coords).r;
         surface.sheen_color *= weight;
         surface.sheen_weight *= weight;
     }

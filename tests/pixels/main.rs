@@ -7,6 +7,7 @@ mod command;
 mod compare;
 mod comparison;
 mod documented;
+mod edge_on;
 mod embedded;
 mod far;
 mod golden;

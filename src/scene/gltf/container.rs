@@ -48,7 +48,7 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         true => Fault::new(format_args!("the .glb says that it is {length} bytes long; export it again")),
         false => short(length.into()),
     })?;
-    let (kind, json, rest) = split_chunk(body, "JSON")?;
+    let (Chunk { kind, data: json }, rest) = split_chunk(body, "JSON")?;
     if kind != b"JSON" {
         let found = kind.escape_ascii();
         return Err(Fault::new(format_args!("the .glb begins with a chunk '{found}', not with JSON; export it again")));
@@ -59,17 +59,23 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 /// The first binary chunk among those after the JSON. Readers are to skip chunks of other kinds.
 fn binary_chunk(mut rest: &[u8]) -> Result<Option<&[u8]>, Fault> {
     while !rest.is_empty() {
-        let (kind, data, next) = split_chunk(rest, "BIN")?;
-        if kind == b"BIN\0" {
-            return Ok(Some(data));
+        let (chunk, next) = split_chunk(rest, "BIN")?;
+        if chunk.kind == b"BIN\0" {
+            return Ok(Some(chunk.data));
         }
         rest = next;
     }
     Ok(None)
 }
 
-/// The kind and the data of the first chunk, and what follows it. Errors call it `name`.
-fn split_chunk<'a>(bytes: &'a [u8], name: &str) -> Result<(&'a [u8], &'a [u8], &'a [u8]), Fault> {
+/// A part of a .glb.
+struct Chunk<'a> {
+    kind: &'a [u8],
+    data: &'a [u8],
+}
+
+/// The first chunk, and what follows it. Errors call it `name`.
+fn split_chunk<'a>(bytes: &'a [u8], name: &str) -> Result<(Chunk<'a>, &'a [u8]), Fault> {
     let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
     let (header, rest) = bytes.split_at_checked(CHUNK_HEADER).ok_or_else(cut)?;
     let length = le_u32(&header[..4]) as usize;
@@ -78,7 +84,7 @@ fn split_chunk<'a>(bytes: &'a [u8], name: &str) -> Result<(&'a [u8], &'a [u8], &
         return Err(Fault::new(what));
     }
     let (data, next) = rest.split_at_checked(length).ok_or_else(cut)?;
-    Ok((&header[4..], data, next))
+    Ok((Chunk { kind: &header[4..], data }, next))
 }
 
 fn le_u32(bytes: &[u8]) -> u32 {
