@@ -95,9 +95,9 @@ pub fn load<'a>(document: &Document<'a>, folder: Option<&Path>) -> Result<Vec<By
 }
 
 /// How many bytes buffers count for where memory is granted by them, whatever they claim to hold: a file's count once,
-/// however many buffers name it, and a quarter of those that are decoded, to which memory has been granted already.
+/// however many buffers name it, and an eighth of those that are decoded, to which memory has been granted already.
 pub fn weight(buffers: &[Bytes]) -> u64 {
-    let weigh = |bytes: &Bytes| bytes.len() as u64 / if matches!(bytes, Bytes::Decoded(_)) { 4 } else { 1 };
+    let weigh = |bytes: &Bytes| bytes.len() as u64 / if matches!(bytes, Bytes::Decoded(_)) { 8 } else { 1 };
     let parts: HashMap<_, _> = buffers.iter().map(|bytes| (bytes.as_ptr(), weigh(bytes))).collect();
     parts.into_values().sum()
 }

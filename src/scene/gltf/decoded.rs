@@ -11,10 +11,10 @@ use super::Fault;
 use super::buffers::{self, Bytes};
 
 /// A few bytes can be decoded to any number of the same. So all decoded data together gets this many times the bytes
-/// of all buffers: five times what Draco makes of meshes that are scanned or modelled.
+/// of all buffers: twice what Draco makes of a smooth surface.
 const EXPANSION: u64 = 64;
-/// And so many bytes more, for small files.
-const EXPANSION_FLOOR: u64 = 16 << 20;
+/// And so many bytes more, for files that are small because they are regular: two million flat triangles.
+const EXPANSION_FLOOR: u64 = 64 << 20;
 
 /// What the elements of a decoded view are.
 pub struct Format {

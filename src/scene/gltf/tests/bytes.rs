@@ -114,6 +114,10 @@ fn more_than_a_file_may_hold() {
     file.json["meshes"][0]["primitives"] = json!(vec![primitive; 10_000]);
     file.push("nodes", json!({ "mesh": 0 }));
     assert!(error(&file.glb()).contains("share the same accessors"));
+    // What a buffer without data claims to hold does not make that more.
+    let mark = json!({ "EXT_meshopt_compression": { "fallback": true } });
+    file.push("buffers", json!({ "byteLength": 1u64 << 50, "extensions": mark }));
+    assert!(error(&file.glb()).contains("share the same accessors"));
 }
 
 #[test]
