@@ -9,9 +9,9 @@ struct LightsPunctual {
     // 0: directional, the light comes from -direction whatever the position.
     has_place: f32,
     direction: vec3f,
-    // The cone's falloff is (scale cosine + offset) clamped, squared.
+    // Of an angle to the direction the falloff is scale (1 - cos outer - (1 - cos angle)), clamped and squared.
     cone_scale: f32,
-    cone_cosine: f32,
+    cone_versine: f32,
 }
 
 struct LightsCounts {
@@ -94,7 +94,9 @@ fn lights_add_punctual(receiver: Receiver, incident: LobesColors, light: LightsP
     let local = receiver.local_from_world * wo;
     // Falls off to nothing at the range as KHR_lights_punctual recommends.
     let reach = square * light.inverse_range_squared;
-    let cone = saturate(light.cone_scale * (dot(light.direction, -wo) - light.cone_cosine));
+    // 1 - cos, which for narrow cones is what is left of it in 32 bits.
+    let off_axis = light.direction + wo;
+    let cone = saturate(light.cone_scale * (light.cone_versine - 0.5 * dot(off_axis, off_axis)));
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
     var densities: LobesScalars;
     if dot(receiver.up, local) > 0.0 {

@@ -11,8 +11,6 @@ const MATERIAL_SPECULAR_COLOR = 6u;
 const MATERIAL_SHEEN_COLOR = 7u;
 const MATERIAL_SHEEN_ROUGHNESS = 8u;
 const MATERIAL_SHEEN_WEIGHT = 9u;
-// So many copies of a texture across a pixel are its mean.
-const MATERIAL_COPIES = 16.0;
 
 const MATERIAL_LAYERING_GLTF = 0u;
 const MATERIAL_LAYERING_OPENPBR = 1u;
@@ -118,63 +116,64 @@ fn material_uv(slot: u32, tex_coords: vec4f) -> vec2f {
     return vec2f(dot(u.xyz, at), dot(v.xyz, at));
 }
 
-// Pixels beside a triangle that is seen edge-on may have coordinates anywhere. What is averaged over many copies of the
-// texture needs no more of them than where they are within two, by which mirroring goes; but software drivers average
-// texel by texel over whatever lies between the pixels' coordinates, and may take hours.
-fn material_texel(map: texture_2d<f32>, map_sampler: sampler, slot: u32, tex_coords: vec4f) -> vec4f {
-    let uv = material_uv(slot, tex_coords);
-    let copies = max(abs(dpdx(uv)), abs(dpdy(uv)));
-    return textureSample(map, map_sampler, select(uv, uv - 2.0 * floor(0.5 * uv), copies > vec2f(MATERIAL_COPIES)));
-}
-
 fn material_textured(
-    material: u32, emission: vec3f, normal: vec3f, tangent: vec4f, tex_coords: vec4f, color: vec4f,
+    material: u32, emission: vec3f, normal: vec3f, tangent: vec4f, tex_coords: vec4f, color: vec4f, pixel: vec2f,
 ) -> MaterialSurface {
     var surface = material_plain(material, emission, normal);
     surface.base_color *= color.rgb;
     surface.opacity *= color.a;
     if material_has(MATERIAL_BASE_COLOR) {
-        let texel = material_texel(material_base_color, material_base_color_sampler, MATERIAL_BASE_COLOR, tex_coords);
+        let uv = material_uv(MATERIAL_BASE_COLOR, tex_coords);
+        let texel = texels_at(material_base_color, material_base_color_sampler, uv, pixel);
         surface.base_color *= texel.rgb;
         surface.opacity *= texel.a;
     }
     if material_has(MATERIAL_METALLIC_ROUGHNESS) {
-        let texel = material_texel(material_metallic_roughness, material_metallic_roughness_sampler, MATERIAL_METALLIC_ROUGHNESS, tex_coords);
+        let uv = material_uv(MATERIAL_METALLIC_ROUGHNESS, tex_coords);
+        let texel = texels_at(material_metallic_roughness, material_metallic_roughness_sampler, uv, pixel);
         surface.roughness *= texel.g;
         surface.metallic *= texel.b;
     }
     if VARIANT_NORMAL_MAP {
-        let texel = material_texel(material_normal, material_normal_sampler, MATERIAL_NORMAL_MAP, tex_coords);
+        let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
+        let texel = texels_at(material_normal, material_normal_sampler, uv, pixel);
         surface.normal_length = 1.0 - (1.0 - texel.a) * (1.0 - texel.a);
         let mapped = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(material_factors[material].normal_scale), 1.0);
         let across = tangent.w * cross(normal, tangent.xyz);
         surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
     }
     if material_has(MATERIAL_OCCLUSION) {
-        let texel = material_texel(material_occlusion, material_occlusion_sampler, MATERIAL_OCCLUSION, tex_coords);
+        let uv = material_uv(MATERIAL_OCCLUSION, tex_coords);
+        let texel = texels_at(material_occlusion, material_occlusion_sampler, uv, pixel);
         surface.occlusion = 1.0 + material_factors[material].occlusion_strength * (texel.r - 1.0);
     }
     if material_has(MATERIAL_EMISSION) {
-        surface.emission *= material_texel(material_emission, material_emission_sampler, MATERIAL_EMISSION, tex_coords).rgb;
+        let uv = material_uv(MATERIAL_EMISSION, tex_coords);
+        surface.emission *= texels_at(material_emission, material_emission_sampler, uv, pixel).rgb;
     }
     if material_has(MATERIAL_SPECULAR) {
-        let strength = material_texel(material_specular, material_specular_sampler, MATERIAL_SPECULAR, tex_coords).a;
+        let uv = material_uv(MATERIAL_SPECULAR, tex_coords);
+        let strength = texels_at(material_specular, material_specular_sampler, uv, pixel).a;
         surface.f0 *= strength;
         surface.f90 *= strength;
     }
     if material_has(MATERIAL_SPECULAR_COLOR) {
-        surface.f0 *= material_texel(material_specular_color, material_specular_color_sampler, MATERIAL_SPECULAR_COLOR, tex_coords).rgb;
+        let uv = material_uv(MATERIAL_SPECULAR_COLOR, tex_coords);
+        surface.f0 *= texels_at(material_specular_color, material_specular_color_sampler, uv, pixel).rgb;
     }
     if material_has(MATERIAL_SHEEN_COLOR) {
-        surface.sheen_color *= material_texel(material_sheen_color, material_sheen_color_sampler, MATERIAL_SHEEN_COLOR, tex_coords).rgb;
+        let uv = material_uv(MATERIAL_SHEEN_COLOR, tex_coords);
+        surface.sheen_color *= texels_at(material_sheen_color, material_sheen_color_sampler, uv, pixel).rgb;
     }
     if material_has(MATERIAL_SHEEN_ROUGHNESS) {
-        let texel = material_texel(material_sheen_roughness, material_sheen_roughness_sampler, MATERIAL_SHEEN_ROUGHNESS, tex_coords);
+        let uv = material_uv(MATERIAL_SHEEN_ROUGHNESS, tex_coords);
+        let texel = texels_at(material_sheen_roughness, material_sheen_roughness_sampler, uv, pixel);
         let factors = &material_factors[material];
         surface.sheen_alpha = material_alpha_from_roughness((*factors).sheen_roughness * texel.a, (*factors).alpha_exponent);
     }
     if material_has(MATERIAL_SHEEN_WEIGHT) {
-        let weight = material_texel(material_sheen_weight, material_sheen_weight_sampler, MATERIAL_SHEEN_WEIGHT, tex_coords).r;
+        let uv = material_uv(MATERIAL_SHEEN_WEIGHT, tex_coords);
+        let weight = texels_at(material_sheen_weight, material_sheen_weight_sampler, uv, pixel).r;
         surface.sheen_color *= weight;
         surface.sheen_weight *= weight;
     }

@@ -112,7 +112,9 @@ fn surfaces_fragment_textured(
     in: SurfacesTexturedVarying,
     @builtin(front_facing) front_facing: bool,
 ) -> @location(0) vec4f {
-    let surface = material_textured(in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color);
+    let surface = material_textured(
+        in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color, in.position.xy,
+    );
     return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing);
 }
 

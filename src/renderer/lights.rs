@@ -34,7 +34,7 @@ pub(super) struct GpuPunctual {
     has_place: f32,
     direction: Vec3,
     cone_scale: f32,
-    cone_cosine: f32,
+    cone_versine: f32,
     padding: [u32; 3],
 }
 
@@ -182,11 +182,11 @@ fn one_punctual(light: &PunctualLight) -> GpuPunctual {
         PunctualKind::Spot { range, inner, outer } => (range, Some((inner, outer))),
         PunctualKind::Directional => (f32::INFINITY, None),
     };
-    // KHR_lights_punctual's falloff between the cones' cosines; where these are equal, as steep as they can be told apart.
-    // Without a cone all directions are well within.
-    let (cone_cosine, cone_scale) = cone.map_or((-2.0, 1.0), |(inner, outer)| {
-        let [inner, outer] = [inner, outer].map(|angle| f64::from(angle).cos());
-        (outer as f32, (inner - outer).max(f64::from(f32::EPSILON)).recip() as f32)
+    // KHR_lights_punctual's falloff between the cones' cosines, by 1 - cos; where these are equal, as steep as they
+    // can be told apart. Without a cone all directions are well within.
+    let (cone_versine, cone_scale) = cone.map_or((4.0, 1.0), |(inner, outer)| {
+        let [inner, outer] = [inner, outer].map(|angle| 2.0 * (0.5 * f64::from(angle)).sin().powi(2));
+        (outer as f32, (outer - inner).max(outer * f64::from(f32::EPSILON)).recip().min(f64::from(f32::MAX)) as f32)
     });
     GpuPunctual {
         intensity: light.intensity,
@@ -195,7 +195,7 @@ fn one_punctual(light: &PunctualLight) -> GpuPunctual {
         has_place: f32::from(u8::from(light.kind != PunctualKind::Directional)),
         direction: light.direction,
         cone_scale,
-        cone_cosine,
+        cone_versine,
         padding: [0; 3],
     }
 }
@@ -226,7 +226,7 @@ mod tests {
             has_place,
             direction,
             cone_scale,
-            cone_cosine
+            cone_versine
         });
         let counts = members!(GpuCounts { quads, polygons, punctual });
         for (name, size, members) in [

@@ -9,6 +9,7 @@ pub const SURFACES_WGSL: &str = concat!(
     // What a pipeline is made for.
     include_str!("../../shaders/passes/variant.wgsl"),
     // What a surface is made of.
+    include_str!("../../shaders/passes/texels.wgsl"),
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/prior_sheens.wgsl"),
     // How it scatters light, and the point where it does so.

@@ -42,7 +42,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// Whether it glows all over. What has an emissive texture counts as lit, for perhaps only a small part of it glows.
+    /// Whether it glows all over. What has an emissive texture counts as lit, for perhaps only a small part of it
+    /// glows.
     pub fn is_lamp(&self) -> bool {
         self.emission != Vec3::ZERO && self.texture(TextureSlot::Emission).is_none()
     }

@@ -78,8 +78,8 @@ pub struct Level<'a> {
 }
 
 impl Level<'_> {
-    /// The next mipmap: half the size, rounded down but at least 1 texel a side, each texel the mean of the area that it
-    /// covers.
+    /// The next mipmap: half the size, rounded down but at least 1 texel a side, each texel the mean of the area that
+    /// it covers.
     pub fn halved(&self, encoding: Encoding) -> Level<'static> {
         let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as u8));
         let addend = |at: usize| encoding.addend(self.texels[at], &linear);

@@ -55,8 +55,8 @@ pub use texture::{Filter, Image, Sampler, Texture, TextureUse, Wrap, linear_from
 /// Indices from one part into another are valid: whoever makes a `Scene` sees to that.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Where the scene's origin stands in its file, in metres: all positions are counted from it. The file's own origin,
-    /// unless the subject is several times its size away from that.
+    /// Where the scene's origin stands in its file, in metres: all positions are counted from it. The file's own
+    /// origin, unless the subject stands farther from that than 16 times its radius.
     pub origin: DVec3,
     /// Triangles in their own space, one mesh per glTF primitive.
     pub meshes: Vec<Mesh>,
@@ -74,8 +74,8 @@ pub struct Scene {
     pub punctual_lights: Vec<PunctualLight>,
     /// The views. After loading there is at least one; the first is the default.
     pub cameras: Vec<Camera>,
-    /// The file that it was read from, then all files that this one names as buffers and images, read or not. Empty where it was read from
-    /// bytes or made otherwise.
+    /// The file that it was read from, then all files that this one names as buffers and images, read or not. Empty
+    /// where it was read from bytes or made otherwise.
     pub files: Vec<PathBuf>,
     /// What the file holds that Velour does not draw, and what was added to it (a framing camera, a default rig): one
     /// line per kind, for the caller to print.

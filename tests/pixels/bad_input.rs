@@ -172,7 +172,7 @@ fn scenes_with_something_wrong() {
         (
             "roughness",
             spoilt(|json| {
-                json["materials"][0]["extensions"]["KHR_materials_sheen"]["sheenRoughnessFactor"] = json!(1.5)
+                json["materials"][0]["extensions"]["KHR_materials_sheen"]["sheenRoughnessFactor"] = json!([1])
             }),
         ),
         (
@@ -182,12 +182,12 @@ fn scenes_with_something_wrong() {
         (
             "emissiveStrength",
             spoilt(|json| {
-                json["materials"][1]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = json!(-1)
+                json["materials"][1]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = json!(1e39)
             }),
         ),
         (
-            "baseColor",
-            spoilt(|json| json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([2, 0, 0, 1])),
+            "pbrMetallicRoughness",
+            spoilt(|json| json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([2, 0, 0])),
         ),
         ("yfov", spoilt(|json| json["cameras"][0]["perspective"]["yfov"] = json!(-1.0))),
         ("znear", spoilt(|json| json["cameras"][0]["perspective"]["znear"] = json!(0.0))),

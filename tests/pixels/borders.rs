@@ -58,8 +58,9 @@ fn a_point_light_a_millimetre_away_is_as_bright_as_its_distance_says() {
 /// The cone's edge passes a little beside the middle of the picture: within it, all light arrives, and past it none.
 #[test]
 fn a_spot_whose_cones_are_equal_has_a_hard_edge() {
-    let angle = 0.1f32;
-    for (off_axis, share) in [(0.0, 1.0), (angle - 1e-4, 1.0), (angle + 1e-4, 0.0)] {
+    let angles = [0.1f32, 1e-2, 1e-3, 1e-4].into_iter();
+    for (angle, off, share) in angles.flat_map(|angle| [(angle, 0.0, 1.0), (angle, 0.99, 1.0), (angle, 1.01, 0.0)]) {
+        let off_axis = angle * off;
         let floor = Thing::rectangle([1.0, 1.0], plain()).placed(facing(ORIGIN, UP));
         let mut stage = Stage::new(vec![floor], looking(UP, ORIGIN));
         let kind = PunctualKind::Spot { range: f32::INFINITY, inner: angle, outer: angle };
@@ -67,7 +68,7 @@ fn a_spot_whose_cones_are_equal_has_a_hard_edge() {
         stage.punctual.push(PunctualLight { kind, direction, ..point_light(2.0 * Vec3::Y) });
         let expected = share * 0.25 / std::f32::consts::PI;
         let lit = middle(stage, &diffuse_alone());
-        assert!((lit - expected).abs() < 1e-5, "{off_axis} rad off the axis: {lit} for {expected}");
+        assert!((lit - expected).abs() < 1e-5, "{off_axis} rad off the axis of {angle}: {lit} for {expected}");
     }
 }
 

@@ -1,12 +1,12 @@
-//! Textures on triangles that are seen edge-on.
+//! Textures on triangles that are seen edge-on, and in many copies across a pixel.
 
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Affine2, Mat4, Vec2, Vec3, Vec4};
 use velour::renderer::Offscreen;
 use velour::scene::{Camera, Drawn, Edits, Projection, TextureSlot};
 use velour::table::SheenTable;
 
-use super::compare::GPU;
-use super::stage::plain;
+use super::compare::{GPU, SIZE, linear};
+use super::stage::{looking, plain};
 use super::textures::{floor, textured};
 
 /// Beside a triangle that is seen edge-on, texture coordinates change from pixel to pixel by millions of textures.
@@ -42,4 +42,28 @@ fn textures_seen_edge_on_take_no_longer_than_others() {
     });
     let picture = wait.recv_timeout(std::time::Duration::from_secs(120)).expect("the driver did not come back");
     assert!(picture.pixels.iter().flatten().all(|channel| channel.is_finite()));
+}
+
+/// A column of four is white: a quarter of it is left where many copies lie across a pixel, wherever in them its centre.
+#[test]
+fn many_copies_across_a_pixel_are_their_mean() {
+    let edits = Edits { lights_visible: Some(false), ..Edits::default() };
+    let seen = |copies: f32, columns: [u8; 4]| {
+        let mut scene = floor(plain());
+        let texels = columns.map(|code| [code, code, code, 255]).repeat(4);
+        textured(&mut scene, TextureSlot::BaseColor, [4, 4], texels);
+        // The floor of three metres has one copy, and the picture shows two metres of it.
+        let scale = copies * 3.0 * SIZE[1] as f32 / 2.0;
+        scene.materials[0].textures[TextureSlot::BaseColor as usize].as_mut().unwrap().uv_from_tex_coord =
+            Affine2::from_scale(Vec2::splat(scale));
+        scene.cameras[0].projection = Projection::Orthographic { ymag: 1.0, near: 0.1, far: 10.0 };
+        scene.cameras[0].world_from_camera = looking([0.0, 2.0, 1e-3], [0.0; 3]);
+        linear(&scene, &SheenTable::embedded(), &edits, SIZE)
+    };
+    for copies in [15.0, 17.0, 20.0, 32.0, 33.0, 1000.0] {
+        let (striped, white) = (seen(copies, [255, 0, 0, 0]), seen(copies, [255; 4]));
+        for (striped, white) in striped.pixels.iter().zip(&white.pixels) {
+            assert!(white[0] > 0.0 && (striped[0] / white[0] - 0.25).abs() < 0.005, "{copies}: {striped:?} {white:?}");
+        }
+    }
 }

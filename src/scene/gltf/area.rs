@@ -7,7 +7,7 @@ use gltf::json::Root;
 use serde::Deserialize;
 
 use super::nodes::{Placed, node_label};
-use super::punctual::{one, radiance, white};
+use super::punctual::{radiance, white};
 use super::{Fault, assembly, cut, extensions};
 use crate::scene::error::label;
 use crate::scene::notices::Notices;
@@ -16,8 +16,8 @@ use crate::scene::{Instance, Scene, emitter};
 const EXTENSION: &str = "EXT_lights_area";
 /// The most lights that are drawn: as many rectangles as a scene's corners allow.
 const LIGHTS_MAX: usize = 2048;
-/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's; its outline is within 0.4% of
-/// the radius of the circle. docs/accuracy.md has the errors of its form factors. 256 disks fit in a scene.
+/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's; its outline is within 0.4%
+/// of the radius of the circle. docs/accuracy.md has the errors of its form factors. 256 disks fit in a scene.
 const DISK_SIDES: u16 = 32;
 
 #[derive(Deserialize)]
@@ -33,22 +33,27 @@ struct Light {
     #[serde(default = "thousand")]
     intensity: f32,
     r#type: String,
-    #[serde(default = "one")]
-    size: f32,
+    #[serde(default = "unit")]
+    size: f64,
     #[serde(default)]
     rect: Rect,
 }
 
 #[derive(Deserialize)]
 struct Rect {
-    #[serde(default = "one")]
-    aspect: f32,
+    #[serde(default = "unit")]
+    aspect: f64,
 }
 
 impl Default for Rect {
     fn default() -> Self {
-        Self { aspect: one() }
+        Self { aspect: unit() }
     }
+}
+
+/// The default of sizes and aspects.
+fn unit() -> f64 {
+    1.0
 }
 
 fn thousand() -> f32 {
@@ -67,14 +72,16 @@ struct Emitter {
 impl Light {
     fn read(&self) -> Result<Emitter, String> {
         let radiance = radiance(self.color, self.intensity)?;
-        let positive = |name: &str, value: f32| {
-            let wrong = || format!("{name} is {value}; give a finite number above 0");
-            (value > 0.0 && value.is_finite()).then_some(value).ok_or_else(wrong)
+        let positive = |name: &str, value: f64| {
+            let wrong = || format!("{name} is {value:?}; give a number above 0 that 32-bit floats can hold");
+            let is_held = value > 0.0 && (value as f32).is_finite();
+            is_held.then_some((value as f32).max(f32::MIN_POSITIVE)).ok_or_else(wrong)
         };
         let half = 0.5 * positive("size", self.size)?;
         let corners = match self.r#type.as_str() {
             "rect" => {
-                let width = positive("aspect", half * positive("rect.aspect", self.rect.aspect)?)?;
+                positive("rect.aspect", self.rect.aspect)?;
+                let width = positive("the rectangle's width", self.size * self.rect.aspect)? * 0.5;
                 emitter::rectangle(Vec2::new(width, half)).to_vec()
             }
             "disk" => disk(half, DISK_SIDES),

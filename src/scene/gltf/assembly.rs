@@ -226,8 +226,8 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// Moves a mesh that is far from its own origin to it: how far, and the bounds that it has there. Transforms in `f32` would
-/// lose of it what its coordinates still tell apart.
+/// Moves a mesh that is far from its own origin to it: how far, and the bounds that it has there. Transforms in `f32`
+/// would lose of it what its coordinates still tell apart.
 fn center(mesh: &mut Mesh) -> (DVec3, Bounds) {
     let bounds = Bounds::of_points(&mesh.positions);
     let center = bounds.center().as_dvec3();

@@ -14,7 +14,7 @@ use crate::scene::error::label;
 use crate::scene::notices::Notices;
 use crate::scene::{Camera, Projection};
 
-/// The widest view in radians: the next to pi of those whose half has a tangent.
+/// The widest view in radians: less than pi by several steps of 32-bit floats, so that its half has a tangent.
 const YFOV_MAX: f32 = PI as f32 - 1e-6;
 /// The greatest distances of near and far planes in metres: nothing stands there, and their product fits in 32 bits.
 const NEAR_MAX: f32 = 1e15;
@@ -65,9 +65,9 @@ fn read_perspective(perspective: &Perspective) -> Result<Projection, String> {
     }
     positive("znear", znear)?;
     positive("aspectRatio", aspect_ratio.unwrap_or(1.0))?;
-    let (near, far) = planes(znear, zfar)?;
+    let (near, far) = planes(znear, zfar, f32::MIN_POSITIVE)?;
     let yfov = (yfov as f32).clamp(f32::MIN_POSITIVE, YFOV_MAX);
-    Ok(Projection::Perspective { yfov, near: near.max(f32::MIN_POSITIVE), far })
+    Ok(Projection::Perspective { yfov, near, far })
 }
 
 fn read_orthographic(orthographic: &Orthographic) -> Result<Projection, String> {
@@ -77,7 +77,7 @@ fn read_orthographic(orthographic: &Orthographic) -> Result<Projection, String> 
     if znear < 0.0 {
         return Err(format!("znear is {znear}; give a number from 0 up"));
     }
-    let (near, far) = planes(znear, Some(zfar))?;
+    let (near, far) = planes(znear, Some(zfar), 0.0)?;
     Ok(Projection::Orthographic { ymag: (ymag as f32).clamp(f32::MIN_POSITIVE, f32::MAX), near, far })
 }
 
@@ -85,10 +85,10 @@ fn positive(name: &str, value: f64) -> Result<(), String> {
     (value > 0.0).then_some(()).ok_or_else(|| format!("{name} is {value}; give a number above 0"))
 }
 
-/// The planes between which something is shown. The file's numbers may be so near each other that in 32 bits they are the
-/// same, but the farther one must stay beyond the other.
-fn planes(znear: f64, zfar: Option<f64>) -> Result<(f32, f32), String> {
-    let near = (znear as f32).min(NEAR_MAX);
+/// The planes between which something is shown. The file's numbers may be so near each other that in 32 bits they are
+/// the same, but the farther one must stay beyond the other.
+fn planes(znear: f64, zfar: Option<f64>, least: f32) -> Result<(f32, f32), String> {
+    let near = (znear as f32).clamp(least, NEAR_MAX);
     match zfar {
         None => Ok((near, f32::INFINITY)),
         Some(zfar) if zfar > znear => Ok((near, (zfar as f32).clamp(near.next_up(), FAR_MAX))),

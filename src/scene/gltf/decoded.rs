@@ -29,12 +29,25 @@ pub struct Decoded<'d, 'a> {
     pub buffers: &'d mut Vec<Bytes<'a>>,
     /// Bytes that may still be added.
     left: u64,
+    /// How many buffers and views the file itself has: no others may be named in it.
+    own: [usize; 2],
 }
 
 impl<'d, 'a> Decoded<'d, 'a> {
     pub fn new(root: &'d mut Root, buffers: &'d mut Vec<Bytes<'a>>) -> Self {
         let left = buffers::weight(buffers).saturating_mul(EXPANSION).saturating_add(EXPANSION_FLOOR);
-        Self { root, buffers, left }
+        let own = [buffers.len(), root.buffer_views.len()];
+        Self { root, buffers, left, own }
+    }
+
+    /// The bytes of one of the file's own buffers.
+    pub fn own_buffer(&self, index: usize) -> Option<&[u8]> {
+        self.buffers[..self.own[0]].get(index).map(|bytes| &**bytes)
+    }
+
+    /// What one of the file's own views shows.
+    pub fn own_view(&self, index: usize) -> Option<&[u8]> {
+        (index < self.own[1]).then(|| buffers::view(self.root, self.buffers, index)).flatten()
     }
 
     /// How many bytes may still be added.

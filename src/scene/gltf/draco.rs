@@ -14,7 +14,7 @@ use serde_json::Value;
 use super::assembly::primitive_label;
 use super::decoded::{Decoded, Format, over};
 use super::material_extensions::object;
-use super::{Fault, buffers, cut};
+use super::{Fault, cut};
 
 const NAME: &str = "KHR_draco_mesh_compression";
 
@@ -94,7 +94,7 @@ fn replace(
 
 impl Piece {
     fn decode(decoded: &mut Decoded, view: usize) -> Result<Self, Fault> {
-        let bytes = buffers::view(decoded.root, decoded.buffers, view);
+        let bytes = decoded.own_view(view);
         let missing = format_args!("{NAME}: there is no bufferView {view} with data; export the file again");
         let bytes = bytes.ok_or_else(|| Fault::new(missing))?;
         let mesh = decode_mesh(bytes, decoded.left())?;

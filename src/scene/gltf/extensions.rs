@@ -1,4 +1,4 @@
-//! Extensions of the file as a whole and of its nodes.
+//! Extensions of the file as a whole, of its nodes, and of what holds its data.
 
 use gltf::json::{Buffer, Root};
 use serde::Deserialize;

@@ -1,5 +1,5 @@
-//! Factors of materials past their range: a file that holds them breaks the specification, but every viewer draws it and
-//! what was meant is plain. They are mended in the JSON, as the numbers that the file has, before any is rounded.
+//! Factors of materials past their range: a file that holds them breaks the specification, but every viewer draws it
+//! and what was meant is plain. They are mended in the JSON, as the numbers that the file has, before any is rounded.
 
 use serde_json::{Map, Value};
 
@@ -34,8 +34,8 @@ const FACTORS: [Factor; 14] = [
     up_to(f64::INFINITY, "/extensions/KHR_materials_specular/specularColorFactor"),
 ];
 
-/// Brings the factors of all materials of a file's JSON into their ranges, with one notice; another for an emissiveFactor
-/// past 1, which is left as it is: it is a strength from before there was an extension for that.
+/// Brings the factors of all materials of a file's JSON into their ranges, with one notice; another for an
+/// emissiveFactor past 1, which is left as it is: it is a strength from before there was an extension for that.
 pub fn mend(root: &mut Map<String, Value>, notices: &mut Notices) {
     let materials = root.get_mut("materials").and_then(Value::as_array_mut).into_iter().flatten();
     for (index, material) in materials.enumerate() {

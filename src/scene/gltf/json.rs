@@ -138,8 +138,8 @@ fn check_counts(root: &Map<String, Value>) -> Result<(), Fault> {
     }
 }
 
-/// Drops what is never read, spells integers as such, and refuses indices that would wrap. Recurses as deep as the JSON,
-/// which its parser limits to 128.
+/// Drops what is never read, spells integers as such, and refuses indices that would wrap. Recurses as deep as the
+/// JSON, which its parser limits to 128.
 fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
     match value {
         Value::Object(members) => {
@@ -165,9 +165,8 @@ fn prepare(key: &str, value: &mut Value) -> Result<(), Fault> {
 }
 
 /// The integer that a number is though it has a decimal point or an exponent, as 4.0 and 1e2 (glTF 2.0, section 2.7).
-/// Not that of -0.0, whose sign would be lost.
 fn integer(number: &Number) -> Option<Number> {
     let value = number.as_f64().filter(|_| number.is_f64())?;
-    let is_whole = value.fract() == 0.0 && value.abs() <= WHOLE_MAX && (value != 0.0 || value.is_sign_positive());
+    let is_whole = value.fract() == 0.0 && value.abs() <= WHOLE_MAX;
     is_whole.then(|| Number::from(value as i64))
 }

@@ -53,7 +53,7 @@ pub struct Specular {
 #[derive(Deserialize)]
 #[serde(default)]
 pub struct Ior {
-    pub ior: f32,
+    pub ior: f64,
 }
 
 impl Extension for Sheen {

@@ -81,7 +81,8 @@ fn read_core(material: &json::Material, uses: &mut Uses) -> Result<Material, Str
 }
 
 fn alpha_mode(material: &json::Material) -> Result<AlphaMode, String> {
-    let [cutoff] = finite("alphaCutoff", [material.alpha_cutoff.unwrap_or_default().0])?;
+    // Past 1 nothing is seen, however far.
+    let cutoff = material.alpha_cutoff.unwrap_or_default().0.min(f32::MAX);
     match material.alpha_mode {
         Valid(JsonAlphaMode::Opaque) => Ok(AlphaMode::Opaque),
         Valid(JsonAlphaMode::Mask) => Ok(AlphaMode::Mask { cutoff }),
@@ -104,10 +105,11 @@ fn read_layers(others: &serde_json::Map<String, Value>, read: &mut Material, use
     read.specular_color = finite("specularColorFactor", specular.specular_color_factor)?.into();
     uses.add("specularTexture", TextureSlot::Specular, &specular.specular_texture)?;
     uses.add("specularColorTexture", TextureSlot::SpecularColor, &specular.specular_color_texture)?;
-    read.ior = extension::<Ior>(others)?.unwrap_or_default().ior;
-    if read.ior != 0.0 && !(1.0..=f32::MAX).contains(&read.ior) {
-        return Err(format!("ior is {}; give 0 or a finite number from 1 up", read.ior));
+    let ior = extension::<Ior>(others)?.unwrap_or_default().ior;
+    if ior != 0.0 && !(1.0..=f64::from(f32::MAX)).contains(&ior) {
+        return Err(format!("ior is {ior}; give 0 or a finite number from 1 up"));
     }
+    read.ior = ior as f32;
     let sheen = extension::<SheenExtension>(others)?;
     read.sheen = sheen.map(|sheen| read_sheen(&sheen, uses)).transpose()?;
     if let Some(fuzz) = extension::<Fuzz>(others)? {

@@ -50,8 +50,7 @@ impl Stream {
         }
         decoded.reserve(length)?;
         let bytes = decoded
-            .buffers
-            .get(self.buffer)
+            .own_buffer(self.buffer)
             .and_then(|bytes| bytes.get(self.byte_offset..self.byte_offset.checked_add(self.byte_length)?));
         let bytes = bytes.ok_or_else(|| {
             let what = format_args!("{} bytes from {} do not lie in", self.byte_length, self.byte_offset);

@@ -91,13 +91,13 @@ fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene
     let mut document = container::parse(bytes, &mut notices)?;
     check_extensions(&document.root)?;
     let mut buffers = buffers::load(&document, folder)?;
+    references::check(&document.root)?;
     let mut decoded = Decoded::new(&mut document.root, &mut buffers);
     meshopt::decode(&mut decoded)?;
     draco::decode(&mut decoded)?;
     let (root, exact) = (&document.root, &document.exact);
     let accessors = Accessors { root, buffers: &buffers };
     accessors.check()?;
-    references::check(root)?;
     let mut nodes = nodes::place(root, exact, &extensions::visibility(root)?, &mut notices)?;
     extensions::note(root, &mut notices);
     for animation in 0..document.animations {

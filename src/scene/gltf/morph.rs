@@ -29,6 +29,13 @@ pub fn count(primitive: &Primitive) -> usize {
     raw(primitive).and_then(Value::as_array).map_or(0, Vec::len)
 }
 
+/// Bytes of memory that a primitive's targets take, about.
+pub fn targets_bytes(primitive: &Primitive) -> usize {
+    let entries = |target: &Value| 1 + target.as_object().map_or(0, serde_json::Map::len);
+    let targets = raw(primitive).and_then(Value::as_array).into_iter().flatten();
+    targets.map(entries).sum::<usize>().saturating_mul(size_of::<Target>())
+}
+
 fn raw(primitive: &Primitive) -> Option<&Value> {
     primitive.extensions.as_ref().and_then(|extensions| extensions.others.get(TARGETS))
 }

@@ -50,5 +50,6 @@ fn of(scene: &Scene, placements: &[Placement]) -> DVec3 {
         return DVec3::ZERO;
     }
     let step = radius.log2().ceil().exp2();
-    (middle / step).round() * step
+    // Adding zero makes 0 of -0.
+    (middle / step).round() * step + DVec3::ZERO
 }

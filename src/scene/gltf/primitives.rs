@@ -66,6 +66,8 @@ impl<'a> Reader<'a> {
         shape: Shape,
         notices: &mut Notices,
     ) -> Result<Option<Shaped>, Fault> {
+        // What is not drawn is looked at all the same, in each shape.
+        self.charge(size_of::<Mesh>())?;
         let Valid(mode) = primitive.mode else { return Err(Fault::new("its mode is none of glTF's; export it again")) };
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             notices.add("points and lines are not drawn", || name);
@@ -76,7 +78,7 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         if attributes.has_wide_tex_coords(&self.accessors) {
-            notices.add("of texture coordinates of three components the third is left out", || name.clone());
+            notices.add("the third component of texture coordinates is left out", || name.clone());
         }
         let is_bound = !attributes.influences.is_empty();
         if shape.joints.is_none() {
@@ -90,7 +92,7 @@ impl<'a> Reader<'a> {
         triangles.retain(|&triangle| area_vector(&mesh.positions, triangle) != DVec3::ZERO);
         if triangles.is_empty() {
             if origin.is_some() {
-                notices.add("meshes of which their pose leaves no area are not drawn", || mesh.name);
+                notices.add("meshes that their pose leaves without area are not drawn", || mesh.name);
             }
             return Ok(None);
         }
@@ -119,7 +121,7 @@ impl<'a> Reader<'a> {
         if weights.is_empty() {
             return Ok(());
         }
-        self.charge(morph::count(primitive).saturating_mul(size_of::<morph::Target>()))?;
+        self.charge(morph::targets_bytes(primitive))?;
         let targets = morph::targets(primitive)?;
         self.charge(Deltas::bytes(&targets, weights, mesh.positions.len()))?;
         Deltas { accessors: &self.accessors, targets: &targets, weights, used, count }.add_to(mesh)
@@ -181,7 +183,6 @@ impl<'a> Reader<'a> {
         let indices = if mode == Mode::Triangles { corners } else { corners.saturating_mul(3) };
         let vertices = if attributes.may_split() { indices.max(count.min(corners)) } else { count.min(corners) };
         let bytes = vertices.saturating_mul(attributes.vertex_bytes()).saturating_add(indices.saturating_mul(4));
-        let bytes = bytes.saturating_add(size_of::<Mesh>());
         // Indices of 32 bits must do for vertices that are split, too.
         self.charge(if vertices < u32::MAX as usize { bytes } else { usize::MAX })
     }

@@ -55,7 +55,7 @@ impl Spot {
         // Half pi as 32-bit floats have it is a little more than half pi, and no less well meant.
         let ends = outer <= f64::from(FRAC_PI_2 as f32);
         if !(0.0 <= inner && inner <= outer && 0.0 < outer && ends) {
-            let what = "give 0 <= innerConeAngle < outerConeAngle <= pi / 2";
+            let what = "give 0 <= innerConeAngle <= outerConeAngle <= pi / 2, of which the outer is above 0";
             return Err(format!("innerConeAngle is {inner} and outerConeAngle {outer}; {what}"));
         }
         if inner == outer {
@@ -112,8 +112,8 @@ impl Light {
     }
 }
 
-/// The lights at the scene's visible nodes, each with its name in the file's list or, without one, its node's. All are checked,
-/// whether placed or not.
+/// The lights at the scene's visible nodes, each with its name in the file's list or, without one, its node's. All are
+/// checked, whether placed or not.
 pub fn read(root: &Root, placed: &[Placed], notices: &mut Notices) -> Result<Vec<PunctualLight>, Fault> {
     let Lights { lights } = extensions::of_root(root, EXTENSION)?.unwrap_or(Lights { lights: Vec::new() });
     let mut read = |(index, light): (usize, &Light)| {

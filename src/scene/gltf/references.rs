@@ -9,8 +9,19 @@ use super::nodes::node_label;
 use super::{Fault, morph, textures};
 use crate::scene::error::label;
 
-/// Checks what nodes, primitives, textures, images and skins refer to, whether they are in the scene or not.
+/// Checks what nodes, primitives, textures, images, skins, views and accessors refer to, whether they are in the scene
+/// or not. Before anything is decoded: decoders add to these lists.
 pub fn check(root: &Root) -> Result<(), Fault> {
+    for (index, view) in root.buffer_views.iter().enumerate() {
+        let place = || label("bufferView", index, view.name.as_deref());
+        within("buffer", root.buffers.len(), Some(&view.buffer), place)?;
+    }
+    for (index, accessor) in root.accessors.iter().enumerate() {
+        let place = || label("accessor", index, accessor.name.as_deref());
+        let sparse = accessor.sparse.iter();
+        let sparse = sparse.flat_map(|sparse| [&sparse.indices.buffer_view, &sparse.values.buffer_view]);
+        within("bufferView", root.buffer_views.len(), accessor.buffer_view.iter().chain(sparse), place)?;
+    }
     for (index, node) in root.nodes.iter().enumerate() {
         let place = || node_label(root, index);
         within("mesh", root.meshes.len(), &node.mesh, place)?;

@@ -29,8 +29,8 @@ pub fn vertex_bytes(sets: usize) -> usize {
 }
 
 /// Moves vertices to the world, to where joints put them; then about the middle of them all, which is the result, so
-/// that 32 bits hold their places wherever that is. Normals stay perpendicular to the surface and on its side. Triangles
-/// that joints mirror are turned over, so that they are seen from their front as before.
+/// that 32 bits hold their places wherever that is. Normals stay perpendicular to the surface and on its side.
+/// Triangles that joints mirror are turned over, so that they are seen from their front as before.
 pub fn apply(
     mesh: &mut Mesh,
     triangles: &mut [[u32; 3]],

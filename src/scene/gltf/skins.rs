@@ -19,8 +19,8 @@ use crate::scene::error::label;
 /// and to the distance between joints in where they put things. Rounding to 32 bits stays within it.
 const AGREEMENT: f64 = 1e-5;
 
-/// How a skin moves the vertices that are bound to it, whatever the node of their mesh (glTF 2.0, section 3.7.3.3): each
-/// joint's place in the world times its inverse bind matrix.
+/// How a skin moves the vertices that are bound to it, whatever the node of their mesh (glTF 2.0, section 3.7.3.3):
+/// each joint's place in the world times its inverse bind matrix.
 #[derive(Clone)]
 pub enum Bones {
     /// All as one.

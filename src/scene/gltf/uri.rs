@@ -1,6 +1,6 @@
 //! What a URI in a file stands for: a path within the scene's folder, or the data that it spells out.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -31,8 +31,8 @@ pub fn data(uri: &str) -> Result<Option<Vec<u8>>, Fault> {
     BASE64.decode(std::borrow::Cow::from(bytes)).map(Some).map_err(broken)
 }
 
-/// The path that a URI names, within the scene's folder: a scene must not reach other files of its user. Dot segments are
-/// taken out as RFC 3986 does (section 5.2.4), so that they may lead through any folder, and back.
+/// The path that a URI names, within the scene's folder: a scene must not reach other files of its user. Dot segments
+/// are taken out as RFC 3986 does (section 5.2.4), so that they may lead through any folder, and back.
 pub fn path(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     let shown: String = uri.chars().take(SHOWN).collect();
     let refuse = |why: &str| Fault::new(format_args!("its URI '{shown}' {why}"));
@@ -45,17 +45,31 @@ pub fn path(uri: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     // What follows is for servers.
     let named = uri.split(['?', '#']).next().unwrap_or_default();
     let mut segments = Vec::new();
-    for segment in named.split('/') {
+    if named.starts_with('/') {
+        return Err(outside());
+    }
+    // Empty segments in the middle or at the end lead nowhere.
+    for segment in named.split('/').filter(|segment| !segment.is_empty()) {
         let name = percent_decode_str(segment).decode_utf8().map_err(|_| refuse("is not UTF-8; rename the file"))?;
         match name.as_ref() {
             "." => {}
             ".." => drop(segments.pop().ok_or_else(outside)?),
-            // An empty one begins an absolute path; the others end a name early, or are paths of their own.
-            name if name.is_empty() || name.contains(['/', '\\', '\0']) => return Err(outside()),
+            name if !is_file_name(name) => return Err(refuse("names no file beside the scene; name one")),
             _ => segments.push(name),
         }
     }
+    if named.is_empty() {
+        return Err(refuse("names no file beside the scene; name one"));
+    }
     Ok(segments.iter().fold(folder.to_owned(), |path, segment| path.join(segment.as_ref())))
+}
+
+/// Whether a segment names something in its folder: neither a path of its own, as `a%2Fb` or, where that means something,
+/// `C:`, nor one that ends early.
+fn is_file_name(segment: &str) -> bool {
+    let mut components = Path::new(segment).components();
+    let is_plain = matches!(components.next(), Some(Component::Normal(name)) if name == segment);
+    is_plain && components.next().is_none() && !segment.contains('\0')
 }
 
 /// The scheme, in lower case, and what follows its colon (RFC 3986, section 3.1), if there is one.

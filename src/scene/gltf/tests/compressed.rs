@@ -311,3 +311,18 @@ fn broken_draco_streams_are_named() {
     let error = error(&studio_of(&claim));
     assert!(error.contains("times as long as the file") || error.contains("is broken"), "{error}");
 }
+
+#[test]
+fn indices_past_the_files_lists_do_not_reach_what_is_decoded() {
+    for (list, member, what) in
+        [("bufferViews", "buffer", "there is no buffer"), ("accessors", "bufferView", "there is no bufferView")]
+    {
+        let mut file = packed_studio();
+        let target = if member == "buffer" { "buffers" } else { "bufferViews" };
+        let past = file.json[target].as_array().unwrap().len();
+        let last = file.json[list].as_array().unwrap().len() - 1;
+        file.json[list][last][member] = json!(past);
+        let error = read(&file.glb()).expect_err("this is read");
+        assert!(error.contains(what), "{error}");
+    }
+}

@@ -118,7 +118,7 @@ fn texture_coordinates_of_three_components() {
     let wide = file.vectors(&wide.collect::<Vec<_>>());
     file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(wide);
     let scene = file.read();
-    let kind = "of texture coordinates of three components the third is left out";
+    let kind = "the third component of texture coordinates is left out";
     assert_eq!(scene.notices, [format!("{kind}: mesh 0 primitive 0")]);
     assert_eq!(scene.meshes[0].tex_coords, plain.meshes[0].tex_coords);
 }

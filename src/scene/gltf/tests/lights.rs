@@ -83,10 +83,10 @@ fn bad_lights_are_refused_at_their_place() {
         (AREA, "rect", "type", json!("sphere"), "neither rect nor disk"),
         (AREA, "rect", "type", json!(3), "lights[0].type"),
         (AREA, "rect", "intensity", json!(-1), "intensity is -1"),
-        (AREA, "rect", "size", json!(0), "size is 0"),
-        (AREA, "disk", "size", json!(-1), "size is -1"),
-        (AREA, "rect", "rect", json!({ "aspect": 0 }), "rect.aspect is 0"),
-        (AREA, "rect", "rect", json!({ "aspect": 1e39 }), "rect.aspect is inf"),
+        (AREA, "rect", "size", json!(0), "size is 0.0"),
+        (AREA, "disk", "size", json!(-1), "size is -1.0"),
+        (AREA, "rect", "rect", json!({ "aspect": 0 }), "rect.aspect is 0.0"),
+        (AREA, "rect", "rect", json!({ "aspect": 1e39 }), "rect.aspect is 1e39"),
         (AREA, "rect", "rect", json!({ "aspect": "wide" }), "lights[0].rect.aspect"),
     ] {
         let mut light = json!({ "type": kind });

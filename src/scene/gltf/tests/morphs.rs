@@ -230,6 +230,18 @@ fn few_bytes_do_not_become_much_work() {
     let node = |at: usize| json!({ "mesh": mesh, "weights": [1.0 + at as f32] });
     file.json["nodes"] = json!((0..1000).map(node).collect::<Vec<_>>());
     assert!(file.error().contains("share the same accessors"));
+    // The same of primitives that are not drawn, and of targets that have many names and no weight.
+    let mut points = file.json["meshes"][mesh]["primitives"][0].clone();
+    points["mode"] = json!(0);
+    let mut undrawn = Builder { json: file.json.clone(), bytes: file.bytes.clone() };
+    undrawn.json["meshes"][mesh]["primitives"] = json!(vec![points; 2000]);
+    assert!(undrawn.error().contains("share the same accessors"));
+    let names = (0..20_000).map(|at| (format!("_{at}"), json!(accessor))).collect::<serde_json::Map<_, _>>();
+    undrawn.json["meshes"][mesh]["primitives"] = file.json["meshes"][mesh]["primitives"].clone();
+    undrawn.json["meshes"][mesh]["primitives"][0]["targets"] = json!([names, { "POSITION": accessor }]);
+    undrawn.json["nodes"] =
+        json!((0..1000).map(|at| json!({ "mesh": mesh, "weights": [0.0, 1.0 + at as f32] })).collect::<Vec<_>>());
+    assert!(undrawn.error().contains("share the same accessors"));
     // Many nodes share a mesh's long list of weights.
     let mut file = morphed(&[STEPS], json!(vec![1; 100_000]));
     file.json["nodes"] = json!(vec![json!({ "mesh": 0 }); 1000]);

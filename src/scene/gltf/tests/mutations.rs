@@ -157,8 +157,8 @@ fn read_with_changed_values(file: &Builder, random: &mut Pcg32, rounds: usize) -
     read
 }
 
-/// The studio with a sheet that is quantized, sparse, coloured, mapped, morphed and skinned, two lamps that are instances,
-/// and lights of every kind.
+/// The studio with a sheet that is quantized, sparse, coloured, mapped, morphed and skinned, two lamps that are
+/// instances, and lights of every kind.
 fn workshop() -> Builder {
     let mut file = Builder::studio();
     let positions: [i8; 16] = [-100, -100, 0, 0, 100, -100, 0, 0, 100, 100, 0, 0, -100, 100, 0, 0];

@@ -30,7 +30,7 @@ fn what_a_pose_leaves_nothing_of_is_said() {
     let joints = [json!({ "scale": [0, 0, 0] }), json!({ "translation": [0, 0, 2], "scale": [0, 0, 0] })];
     let scene = square(joints, [Mat4::IDENTITY; 2], [0.5, 0.5]).read();
     assert_eq!(scene.instances.len(), 1);
-    assert_eq!(scene.notices, ["meshes of which their pose leaves no area are not drawn: mesh 0 primitive 0"]);
+    assert_eq!(scene.notices, ["meshes that their pose leaves without area are not drawn: mesh 0 primitive 0"]);
 }
 
 #[test]

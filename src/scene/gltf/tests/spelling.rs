@@ -127,7 +127,7 @@ fn chunks_of_unknown_kinds() {
         let length = bytes.len() as u32;
         bytes[8..12].copy_from_slice(&length.to_le_bytes());
         assert_eq!(contents(&read(&bytes).unwrap()), plain, "{at}");
-        // What follows the length that the file states is none of its business.
+        // What follows the length that the file states is ignored.
         bytes.extend([1, 2, 3]);
         assert_eq!(contents(&read(&bytes).unwrap()), plain, "{at}");
     }
@@ -165,15 +165,27 @@ fn paths_with_dot_segments() {
         fs::write(&path, json.to_string()).unwrap();
         crate::scene::gltf::load(&path, &Options::default()).map_err(|error| error.to_string())
     };
-    for uri in ["1:1.bin", "./1:1.bin", "maps/../1:1.bin", "nowhere/deep/.././../1%3A1.bin", "%2E/1:1.bin?x=1#top"] {
+    for uri in [
+        "1:1.bin",
+        "./1:1.bin",
+        "maps/../1:1.bin",
+        ".//1:1.bin",
+        "maps//..//1:1.bin",
+        "nowhere/deep/.././../1%3A1.bin",
+        "%2E/1:1.bin?x=1#top",
+    ] {
         check(&load(uri).unwrap_or_else(|error| panic!("{uri}: {error}")));
     }
-    for uri in
-        ["../outside.bin", "maps/../../outside.bin", "%2e%2E/outside.bin", "maps/..%2f..%2foutside.bin", "/1:1.bin"]
-    {
+    for uri in ["../outside.bin", "maps/../../outside.bin", "%2e%2E/outside.bin", "/1:1.bin", "//host/1:1.bin"] {
         assert!(load(uri).unwrap_err().contains("leads out of the scene's folder"), "{uri}");
     }
-    for (uri, what) in [("HTTP://host/1.bin", "has a scheme"), ("maps/..", "is a folder"), ("./", "leads out")] {
+    for (uri, what) in [
+        ("HTTP://host/1.bin", "has a scheme"),
+        ("maps/..", "is a folder"),
+        ("./", "is a folder"),
+        ("?", "names no file"),
+        ("maps/..%2f..%2foutside.bin", "names no file"),
+    ] {
         assert!(load(uri).unwrap_err().contains(what), "{uri}");
     }
 }
