@@ -8,8 +8,9 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/ggx.wgsl"),
     // What a pipeline is made for.
     include_str!("../../shaders/passes/variant.wgsl"),
-    // What a surface is made of.
+    // Textures, looked up.
     include_str!("../../shaders/passes/texels.wgsl"),
+    // What a surface is made of.
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/prior_sheens.wgsl"),
     // How it scatters light, and the point where it does so.

@@ -9,11 +9,13 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 9] = [
+pub const FLOORS: [&[&str]; 10] = [
     // What people copy.
     &["ltc", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
+    // Textures, looked up.
+    &["passes/texels"],
     // What a surface is made of; sheens of prior work.
     &["passes/material", "passes/prior_sheens"],
     // How a surface scatters light.

@@ -34,8 +34,7 @@ fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok()
 }
 
-/// Refuses to write over what the picture is made from: the scene, its buffers and images, and `others`, each with
-/// what it is.
+/// Refuses to write over what the picture is made from: the scene, its buffers and images, and `others`, each with what it is.
 pub fn check_apart(output: &Path, scene: &Scene, others: &[(&str, &Path)]) -> Result<(), Failure> {
     let what = match scene.files.iter().position(|file| is_same_file(output, file)) {
         Some(0) => "the scene itself",

@@ -29,12 +29,12 @@ pub struct PictureArgs {
     /// A camera of the scene, by name or by index [default: the first]
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
-    /// The alpha, in [0,1], of every material that has a sheen, whatever its roughness map; where none has a sheen,
-    /// all get a white one
+    /// The alpha, in [0,1], of every material that has a sheen, whatever its roughness map; where none has a sheen, all get a
+    /// white one
     #[arg(long, value_name = "A", value_parser = read(Value::share), allow_negative_numbers = true)]
     pub alpha: Option<f32>,
-    /// The colour, linear Rec. 709, each in [0,1], of every material that has a sheen; where none has a sheen, all get
-    /// one of alpha 0.5
+    /// The colour, linear Rec. 709, each in [0,1], of every material that has a sheen; where none has a sheen, all get one of
+    /// alpha 0.5
     #[arg(long, value_name = "R,G,B", value_parser = read(Value::color), allow_hyphen_values = true)]
     pub sheen_color: Option<Vec3>,
     /// Changes one material, by name or index: keys alpha and sheen-color (which give it a sheen if it has none),
@@ -45,8 +45,7 @@ pub struct PictureArgs {
     /// fibres and base, whatever the sheen's model (with `velour reference` only) [default: gltf]
     #[arg(long, value_name = "gltf|openpbr|reciprocal|manual=S|none|walk", value_parser = read(Value::layering))]
     pub layering: Option<Layering>,
-    /// The sheen's alpha for a roughness x of the file: identity is x, square x^2, sqrt its square root [default:
-    /// identity]
+    /// The sheen's alpha for a roughness x of the file: identity is x, square x^2, sqrt its square root [default: identity]
     #[arg(long, value_name = "identity|square|sqrt", value_parser = read(Value::roughness_map))]
     pub roughness_map: Option<RoughnessMap>,
     /// The sheen's lobe: ltc, the fitted transformed cosine; the slab that it is fitted to, or a walk through it path

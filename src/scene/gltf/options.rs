@@ -16,7 +16,7 @@ pub enum Pose {
     /// As the file poses them: bent by the joints of their skins, and morphed by the default weights.
     #[default]
     File,
-    /// As they were modelled: their vertices as the file has them. A mesh with a skin goes with the joint of that which
+    /// As they were modelled: their vertices as the file has them. A mesh with a skin follows whichever of its joints
     /// is nearest the root.
     Bind,
 }
