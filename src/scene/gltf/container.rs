@@ -3,6 +3,7 @@
 use gltf::json::Root;
 
 use super::Fault;
+use super::elements::unsigned;
 use super::exact::Exact;
 use super::json::{Parsed, parse_json};
 use crate::scene::notices::Notices;
@@ -39,11 +40,11 @@ fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         Fault::new(format_args!("the .glb is cut short ({have} bytes of {needed}); copy or export it again"))
     };
     let header = bytes.get(..GLB_HEADER).ok_or_else(|| short(GLB_HEADER as u64))?;
-    let version = le_u32(&header[4..8]);
+    let version = unsigned(&header[4..8]);
     if version != 2 {
         return Err(Fault::new(format_args!("the .glb is of version {version}; export it as glTF 2.0")));
     }
-    let length = le_u32(&header[8..12]);
+    let length = unsigned(&header[8..12]);
     let body = bytes.get(GLB_HEADER..length as usize).ok_or_else(|| match (length as usize) < GLB_HEADER {
         true => Fault::new(format_args!("the .glb says that it is {length} bytes long; export it again")),
         false => short(length.into()),
@@ -78,15 +79,11 @@ struct Chunk<'a> {
 fn split_chunk<'a>(bytes: &'a [u8], name: &str) -> Result<(Chunk<'a>, &'a [u8]), Fault> {
     let cut = || Fault::new(format_args!("the .glb's {name} chunk is cut short; copy or export the file again"));
     let (header, rest) = bytes.split_at_checked(CHUNK_HEADER).ok_or_else(cut)?;
-    let length = le_u32(&header[..4]) as usize;
+    let length = unsigned(&header[..4]) as usize;
     if !length.is_multiple_of(4) {
         let what = format_args!("the .glb's {name} chunk is {length} bytes long, no multiple of 4; export it again");
         return Err(Fault::new(what));
     }
     let (data, next) = rest.split_at_checked(length).ok_or_else(cut)?;
     Ok((Chunk { kind: &header[4..], data }, next))
-}
-
-fn le_u32(bytes: &[u8]) -> u32 {
-    bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
 }

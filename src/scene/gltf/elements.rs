@@ -68,7 +68,12 @@ impl<'a> Sparse<'a> {
 
 /// An integer of up to four bytes, the least significant first.
 pub fn unsigned(bytes: &[u8]) -> u32 {
-    bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
+    integer(bytes) as u32
+}
+
+/// An integer of up to eight bytes, the least significant first.
+pub fn integer(bytes: &[u8]) -> u64 {
+    bytes.iter().rev().fold(0, |value, &byte| value << 8 | u64::from(byte))
 }
 
 /// The function that makes a number of a component's bytes. Normalized integers span [0, 1] or [-1, 1] (glTF 2.0,

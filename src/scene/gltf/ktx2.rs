@@ -3,6 +3,8 @@
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use ruzstd::decoding::FrameDecoder;
 
+use super::elements::integer;
+
 /// What files of the format begin with.
 const IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// Bytes of a file's head up to where its levels are listed, and of each level in that list.
@@ -126,11 +128,6 @@ fn value<'a>(mut pairs: &'a [u8], key: &[u8]) -> Option<&'a [u8]> {
         pairs = rest.get(length.next_multiple_of(4)..)?;
     }
     None
-}
-
-/// An integer of up to eight bytes, the least significant first.
-fn integer(bytes: &[u8]) -> u64 {
-    bytes.iter().rev().fold(0, |value, &byte| value << 8 | u64::from(byte))
 }
 
 fn short() -> String {
