@@ -10,8 +10,8 @@ use super::{
 
 /// A scene as edits draw it. Meshes, textures, lights without extent and cameras are those of the scene as loaded.
 ///
-/// Emitters and lights belong together: an emitter is hidden with the lights, moves with its light, and glows as its
-/// light says, whatever has become of that since the scene was loaded.
+/// Emitters and lights belong together: an emitter moves with its light, and glows as its light says, whatever has
+/// become of that since the scene was loaded. One that is a lamp is hidden with the lights.
 #[derive(Clone, Debug)]
 pub struct Drawn<'a> {
     /// As loaded.
@@ -36,7 +36,9 @@ impl<'a> Drawn<'a> {
     /// What `edits` make of `scene`. Panics where they name what the scene does not have.
     pub fn new(scene: &'a Scene, edits: &Edits) -> Self {
         let mut light_of = vec![None; scene.instances.len()];
-        scene.lights.iter().enumerate().for_each(|(index, light)| light_of[light.instance] = Some(index));
+        for (index, light) in scene.lights.iter().enumerate() {
+            light.emitters().for_each(|emitter| light_of[emitter] = Some(index));
+        }
         let mut drawn = Self {
             scene,
             materials: materials(scene, edits),
@@ -54,9 +56,9 @@ impl<'a> Drawn<'a> {
         self.light_of[instance].map(|index| &self.lights[index])
     }
 
-    /// Whether the instance of this index is drawn: all are, but lights' emitters where lights are not visible.
+    /// Whether the instance of this index is drawn: all are, but lamps where lights are not visible.
     pub fn is_drawn(&self, instance: usize) -> bool {
-        self.settings.lights_visible || self.light_of[instance].is_none()
+        self.settings.lights_visible || !self.light(instance).is_some_and(Light::is_lamp)
     }
 
     /// The radiance that the surface of the instance of this index emits where its emissive texture is white: its
@@ -74,7 +76,8 @@ impl<'a> Drawn<'a> {
         if offset != Vec3::ZERO {
             let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
             outlines.flatten().for_each(|vertex| *vertex += offset);
-            self.instances.to_mut()[light.instance].world_from_mesh.w_axis += offset.extend(0.0);
+            let instances = self.instances.to_mut();
+            light.emitters().for_each(|emitter| instances[emitter].world_from_mesh.w_axis += offset.extend(0.0));
         }
     }
 }

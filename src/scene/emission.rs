@@ -1,4 +1,5 @@
-//! The mean of an emissive texture over an emitter, from which follows the radiance of its light.
+//! What is seen of an emitter's glow: the means of its emissive texture and of its opacity, from which follows the
+//! radiance of its light.
 
 use std::collections::HashMap;
 
@@ -6,18 +7,57 @@ use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::mipmap::halved;
-use super::{Filter, Image, Mesh, Sampler, Scene, TextureSlot, linear_from_srgb};
+use super::{AlphaMode, Image, Material, Mesh, Sampler, Scene, TextureSlot, TextureUse, linear_from_srgb};
 
-/// The most texels that an emitter may cover, all triangles together: where it covers more, a smaller mipmap is looked
-/// up.
+/// The most texels of the emissive texture that an emitter may cover, all triangles together: where it covers more, a
+/// smaller mipmap is looked up.
 const TEXELS: f64 = (1 << 20) as f64;
 /// Points per texel.
 const POINTS: f64 = 4.0;
 /// The least number of points, all triangles together.
 const POINTS_MIN: f64 = (1 << 16) as f64;
 
-/// The radiances of a scene's emitters. What is found of a mesh holds for all its instances.
-pub(super) struct Radiances<'a> {
+/// What is seen of a surface, as means over it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    /// The share of its material's emission that is seen, in each channel: what the emissive texture and the opacity
+    /// leave, in \[0, 1\].
+    pub emission: DVec3,
+    /// The share of its area that is seen at all, in \[0, 1\]: a mask has holes.
+    pub area: f64,
+    /// The share of its area that is seen to glow.
+    pub glowing: f64,
+}
+
+impl Seen {
+    const NOTHING: Self = Self { emission: DVec3::ZERO, area: 0.0, glowing: 0.0 };
+
+    /// At a point where the emissive texture is `texel`.
+    fn new(texel: DVec3, opacity: f64) -> Self {
+        let one_where = |holds: bool| f64::from(u8::from(holds));
+        let is_seen = opacity > 0.0;
+        Self {
+            emission: opacity * texel,
+            area: one_where(is_seen),
+            glowing: one_where(is_seen && texel != DVec3::ZERO),
+        }
+    }
+
+    fn plus(self, other: Self, weight: f64) -> Self {
+        Self {
+            emission: self.emission + weight * other.emission,
+            area: self.area + weight * other.area,
+            glowing: self.glowing + weight * other.glowing,
+        }
+    }
+
+    fn over(self, count: f64) -> Self {
+        Self { emission: self.emission / count, area: self.area / count, glowing: self.glowing / count }
+    }
+}
+
+/// The glow of a scene's emitters. What is found of a mesh holds for all its instances.
+pub(super) struct Glows<'a> {
     scene: &'a Scene,
     /// By mesh.
     known: HashMap<usize, Glow>,
@@ -25,13 +65,13 @@ pub(super) struct Radiances<'a> {
 
 /// What a mesh emits.
 struct Glow {
-    /// For each triangle, the mean of its emissive texture; empty where there is none.
-    means: Vec<DVec3>,
+    /// For each triangle; one for all of them where all are seen alike.
+    seen: Vec<Seen>,
     /// Whether any triangle emits anything.
     is_bright: bool,
 }
 
-impl<'a> Radiances<'a> {
+impl<'a> Glows<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, known: HashMap::new() }
     }
@@ -41,74 +81,177 @@ impl<'a> Radiances<'a> {
         self.glow(self.scene.instances[instance].mesh).is_bright
     }
 
-    /// The radiance of an instance's emissive surface, linear Rec. 709, finite: its material's emission times the mean
-    /// of its emissive texture over the surface's area in the world. Where a mesh lacks the set of texture coordinates,
-    /// all of them are (0, 0).
+    /// What is seen of an instance, as means over its surface's area in the world; nothing where it has no area. Where
+    /// a mesh lacks a set of texture coordinates, all of them are (0, 0).
     ///
-    /// The texture is looked up bilinearly at the points of a low-discrepancy sequence in each triangle, at least 4 per
-    /// texel. For noise, where every texel differs from the next, the mean is right to 0.0005, where white is 1.
-    pub fn of(&mut self, instance: usize) -> Vec3 {
+    /// The textures are looked up, as they are magnified, at the points of a low-discrepancy sequence in each triangle,
+    /// at least 4 per texel of the emissive one. For noise, where every texel differs from the next, the mean is right
+    /// to 0.0005, where white is 1.
+    pub fn of(&mut self, instance: usize) -> Seen {
         let scene = self.scene;
         let instance = &scene.instances[instance];
         let mesh = &scene.meshes[instance.mesh];
-        let emission = scene.materials[mesh.material].emission;
-        let means = &self.glow(instance.mesh).means;
-        if means.is_empty() {
-            return emission;
+        let seen = &self.glow(instance.mesh).seen;
+        if let [all] = seen[..] {
+            return all;
         }
-        let weighted = |(triangle, &mean): (&[u32; 3], &DVec3)| {
+        let add = |(sum, whole): (Seen, f64), (triangle, &seen): (&[u32; 3], &Seen)| {
             let area = area(mesh, instance.world_from_mesh, triangle);
-            (area * mean, area)
+            (sum.plus(seen, area), whole + area)
         };
-        let add = |left: (DVec3, f64), right: (DVec3, f64)| (left.0 + right.0, left.1 + right.1);
         // Summed in order, so that the result is the same every time.
         let triangles = mesh.indices.as_chunks::<3>().0;
-        let (sum, area) = triangles.iter().zip(means).map(weighted).fold((DVec3::ZERO, 0.0), add);
-        if area > 0.0 && sum.is_finite() { emission * (sum / area).as_vec3() } else { Vec3::ZERO }
+        let (sum, whole) = triangles.iter().zip(seen).fold((Seen::NOTHING, 0.0), add);
+        if whole > 0.0 && sum.emission.is_finite() { sum.over(whole) } else { Seen::NOTHING }
     }
 
     fn glow(&mut self, mesh: usize) -> &Glow {
         self.known.entry(mesh).or_insert_with(|| {
             let mesh = &self.scene.meshes[mesh];
-            let (means, emission) = (means(self.scene, mesh), self.scene.materials[mesh.material].emission);
-            let is_bright = |&mean: &DVec3| emission.as_dvec3() * mean != DVec3::ZERO;
-            let is_bright = if means.is_empty() { emission != Vec3::ZERO } else { means.iter().any(is_bright) };
-            Glow { means, is_bright }
+            let seen = Surface::new(self.scene, mesh).seen();
+            let emission = self.scene.materials[mesh.material].emission.as_dvec3();
+            let is_bright = seen.iter().any(|seen| emission * seen.emission != DVec3::ZERO);
+            Glow { seen, is_bright }
         })
     }
 }
 
-/// For each triangle of a mesh, the mean of its material's emissive texture; empty where nothing emits by a texture.
-fn means(scene: &Scene, mesh: &Mesh) -> Vec<DVec3> {
-    let material = &scene.materials[mesh.material];
-    let Some(used) = material.texture(TextureSlot::Emission).filter(|_| material.emission != Vec3::ZERO) else {
-        return Vec::new();
-    };
-    let texture = scene.textures[used.texture];
-    let coordinates = &mesh.tex_coords[used.tex_coord];
-    let uv = |corner: u32| {
-        let own = coordinates.get(corner as usize).copied().unwrap_or(Vec2::ZERO);
-        used.uv_from_tex_coord.as_daffine2().transform_point2(own.as_dvec2())
-    };
-    let triangles = mesh.indices.as_chunks::<3>().0;
-    let span = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(uv);
+/// A mesh with what says how much of its glow is seen where.
+struct Surface<'a> {
+    mesh: &'a Mesh,
+    material: &'a Material,
+    emission: Option<Layer<'a, Linear>>,
+    opacity: Option<Layer<'a, &'a Image>>,
+}
+
+/// A texture as it lies on a mesh.
+struct Layer<'a, Texels> {
+    used: TextureUse,
+    sampler: Sampler,
+    /// By vertex; all are (0, 0) where it is empty.
+    coordinates: &'a [Vec2],
+    texels: Texels,
+}
+
+impl<'a> Surface<'a> {
+    fn new(scene: &'a Scene, mesh: &'a Mesh) -> Self {
+        let material = &scene.materials[mesh.material];
+        let (opaque, dark) = (material.alpha_mode == AlphaMode::Opaque, material.emission == Vec3::ZERO);
+        let emission = Layer::new(scene, mesh, TextureSlot::Emission).filter(|_| !dark);
+        let opacity = Layer::new(scene, mesh, TextureSlot::BaseColor).filter(|_| !dark && !opaque);
+        Self { mesh, material, emission: emission.map(|layer| layer.map(Linear::new)), opacity }
+    }
+
+    /// By triangle; one for all of them where all are seen alike.
+    fn seen(mut self) -> Vec<Seen> {
+        let varies = !self.mesh.colors.is_empty() && self.material.alpha_mode != AlphaMode::Opaque;
+        if self.emission.is_none() && self.opacity.is_none() && !varies {
+            return vec![Seen::new(DVec3::ONE, self.opacity(1.0, &[0; 3], DVec3::X))];
+        }
+        let triangles = self.mesh.indices.as_chunks::<3>().0;
+        // Points in all triangles together for each unit of area in texture coordinates, and for each triangle.
+        let emission = self.emission.as_mut().map_or(0.0, |layer| {
+            let covered = layer.covered(triangles);
+            while layer.texels.texels.len() > 1 && covered * layer.texels.texels.len() as f64 > TEXELS {
+                layer.texels = layer.texels.halved();
+            }
+            density(layer.texels.texels.len(), covered)
+        });
+        let opacity = self.opacity.as_ref().map_or(0.0, |layer| {
+            let covered = layer.covered(triangles);
+            density(layer.texels.texels.len(), covered).min((POINTS * TEXELS).max(POINTS_MIN) / covered)
+        });
+        let least = if varies { POINTS_MIN / triangles.len() as f64 } else { 1.0 };
+        let seen = |triangle: &[u32; 3]| {
+            let of_emission = self.emission.as_ref().map_or(0.0, |layer| emission * layer.area(triangle));
+            let of_opacity = self.opacity.as_ref().map_or(0.0, |layer| opacity * layer.area(triangle));
+            self.mean(triangle, of_emission.max(of_opacity).max(least).ceil() as u32)
+        };
+        triangles.par_iter().map(seen).collect()
+    }
+
+    /// The mean over a triangle, from so many points.
+    fn mean(&self, triangle: &[u32; 3], points: u32) -> Seen {
+        // The sequence of the plastic number (M. Roberts 2018); its first point is the middle.
+        const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
+        let emission = self.emission.as_ref().map(|layer| (layer, layer.corners(triangle)));
+        let opacity = self.opacity.as_ref().map(|layer| (layer, layer.corners(triangle)));
+        let sum = (0..points).fold(Seen::NOTHING, |sum, point| {
+            let at = (DVec2::splat(0.5) + f64::from(point) * STEP).fract();
+            // Points beyond the unit square's diagonal are folded back into the triangle below it.
+            let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
+            let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
+            let uv = |[a, b, c]: [DVec2; 3]| a + at.x * (b - a) + at.y * (c - a);
+            let emission = emission.as_ref().map_or(DVec3::ONE, |(layer, corners)| {
+                let Linear { size, texels } = &layer.texels;
+                layer.sampler.magnified(*size, uv(*corners), |at| texels[at].as_dvec3())
+            });
+            let alpha = opacity.as_ref().map_or(1.0, |(layer, corners)| {
+                let Image { width, height, texels, .. } = layer.texels;
+                layer.sampler.magnified([*width, *height], uv(*corners), |at| f64::from(texels[at][3]) / 255.0)
+            });
+            let weights = DVec3::new(1.0 - at.x - at.y, at.x, at.y);
+            sum.plus(Seen::new(emission, self.opacity(alpha, triangle, weights)), 1.0)
+        });
+        sum.over(points.into())
+    }
+
+    /// The share of what is behind a point that it hides, in \[0, 1\], where the texture has the alpha `texel`.
+    fn opacity(&self, texel: f64, triangle: &[u32; 3], weights: DVec3) -> f64 {
+        let of_vertex =
+            |corner: u32| self.mesh.colors.get(corner as usize).map_or(1.0, |&[.., a]| f64::from(a) / 65535.0);
+        let color = weights.dot(DVec3::from(triangle.map(of_vertex)));
+        let opacity = f64::from(self.material.opacity) * texel * color;
+        match self.material.alpha_mode {
+            AlphaMode::Opaque => 1.0,
+            AlphaMode::Mask { cutoff } => f64::from(u8::from(opacity >= f64::from(cutoff))),
+            AlphaMode::Blend => opacity,
+        }
+    }
+}
+
+impl<'a> Layer<'a, &'a Image> {
+    /// That of a slot, where the mesh's material has one.
+    fn new(scene: &'a Scene, mesh: &'a Mesh, slot: TextureSlot) -> Option<Self> {
+        let used = scene.materials[mesh.material].texture(slot)?;
+        let texture = scene.textures[used.texture];
+        let coordinates = &mesh.tex_coords[used.tex_coord];
+        Some(Self { used, sampler: texture.sampler, coordinates, texels: &scene.images[texture.image] })
+    }
+}
+
+impl<'a, Texels: Sync> Layer<'a, Texels> {
+    fn map<Others>(self, convert: impl FnOnce(Texels) -> Others) -> Layer<'a, Others> {
+        let Self { used, sampler, coordinates, texels } = self;
+        Layer { used, sampler, coordinates, texels: convert(texels) }
+    }
+
+    /// A triangle in texture coordinates.
+    fn corners(&self, triangle: &[u32; 3]) -> [DVec2; 3] {
+        let transform = self.used.uv_from_tex_coord.as_daffine2();
+        triangle.map(|corner| {
+            let own = self.coordinates.get(corner as usize).copied().unwrap_or(Vec2::ZERO);
+            transform.transform_point2(own.as_dvec2())
+        })
+    }
+
+    /// Of a triangle in texture coordinates: 1 is the whole image. Finite.
+    fn area(&self, triangle: &[u32; 3]) -> f64 {
+        let [a, b, c] = self.corners(triangle);
         let area = 0.5 * (b - a).perp_dot(c - a).abs();
         if area.is_finite() { area } else { f64::MAX.sqrt() }
-    };
-    let mut level = Linear::new(&scene.images[texture.image]);
-    let spans: f64 = triangles.par_iter().map(span).sum();
-    while level.texels.len() > 1 && spans * level.texels.len() as f64 > TEXELS {
-        level = level.halved();
     }
-    // Points for the whole of the image. Where there is a single texel, or no area, one point per triangle will do.
-    let density = (POINTS * level.texels.len() as f64).max(POINTS_MIN / spans);
-    let density = if level.texels.len() > 1 && density.is_finite() { density } else { 0.0 };
-    // Bilinear whatever the sampler says: over whole texels the mean is the same, and it takes fewer points.
-    let sampler = Sampler { magnify: Filter::Linear, ..texture.sampler };
-    let mean =
-        |triangle: &[u32; 3]| level.mean(triangle.map(uv), (density * span(triangle)).ceil().max(1.0) as u32, sampler);
-    triangles.par_iter().map(mean).collect()
+
+    fn covered(&self, triangles: &[[u32; 3]]) -> f64 {
+        triangles.par_iter().map(|triangle| self.area(triangle)).sum()
+    }
+}
+
+/// Points for the whole of an image of so many texels, of which triangles cover so much; 0 where there is a single
+/// texel, or no area, and one point per triangle will do.
+fn density(texels: usize, covered: f64) -> f64 {
+    let density = (POINTS * texels as f64).max(POINTS_MIN / covered);
+    if texels > 1 && density.is_finite() { density } else { 0.0 }
 }
 
 /// Twice a triangle's area in the world.
@@ -135,22 +278,5 @@ impl Linear {
     fn halved(&self) -> Self {
         let (size, texels) = halved(self.size, |at| self.texels[at], |mean| mean);
         Self { size, texels }
-    }
-
-    /// The mean over a triangle of texture coordinates, from so many points.
-    fn mean(&self, [a, b, c]: [DVec2; 3], points: u32, sampler: Sampler) -> DVec3 {
-        // The sequence of the plastic number (M. Roberts 2018); its first point is the middle.
-        const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
-        let sum: DVec3 = (0..points)
-            .map(|point| {
-                let at = (DVec2::splat(0.5) + f64::from(point) * STEP).fract();
-                // Points beyond the unit square's diagonal are folded back into the triangle below it.
-                let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
-                let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
-                let uv = a + at.x * (b - a) + at.y * (c - a);
-                sampler.magnified(self.size, uv, |at| self.texels[at].as_dvec3())
-            })
-            .sum();
-        sum / f64::from(points)
     }
 }

@@ -35,9 +35,9 @@ pub(super) struct Topology {
 }
 
 /// A triangle's place in the world.
-struct Face {
+pub(super) struct Face {
     /// The area along the normal.
-    area: DVec3,
+    pub area: DVec3,
     normal: DVec3,
 }
 
@@ -61,6 +61,11 @@ impl Topology {
     /// The islands of the mesh as `instance` places it, counter-clockwise seen from the front; `None` where there are
     /// more than `limit`.
     pub fn polygons(&self, mesh: &Mesh, instance: &Instance, limit: usize) -> Option<Vec<Polygon>> {
+        self.placed(mesh, instance).polygons(limit)
+    }
+
+    /// The mesh as `instance` places it.
+    pub fn placed(&self, mesh: &Mesh, instance: &Instance) -> Placed<'_> {
         let world_from_mesh = DAffine3::from_mat4(instance.world_from_mesh.as_dmat4());
         let positions = mesh.positions.iter().map(|position| world_from_mesh.transform_point3(position.as_dvec3()));
         let positions: Vec<DVec3> = positions.collect();
@@ -72,10 +77,10 @@ impl Topology {
             Face { area, normal: area.normalize_or_zero() }
         });
         let faces: Vec<Face> = faces.collect();
-        Placed { topology: self, positions, triangles, faces }.polygons(limit)
+        Placed { topology: self, positions, triangles, faces }
     }
 
-    fn neighbours(&self, triangle: u32) -> &[u32] {
+    pub fn neighbours(&self, triangle: u32) -> &[u32] {
         let triangle = triangle as usize;
         &self.neighbours[self.starts[triangle]..self.starts[triangle + 1]]
     }
@@ -171,12 +176,13 @@ fn adjacency(triangles: &[[u32; 3]]) -> (Vec<usize>, Vec<u32>) {
     (starts.collect(), pairs.into_iter().map(|(_, right)| right).collect())
 }
 
-/// A mesh in the world, about to be split into islands.
-struct Placed<'a> {
-    topology: &'a Topology,
-    positions: Vec<DVec3>,
-    triangles: Vec<[u32; 3]>,
-    faces: Vec<Face>,
+/// A mesh in the world, about to be split into flat parts.
+pub(super) struct Placed<'a> {
+    pub topology: &'a Topology,
+    pub positions: Vec<DVec3>,
+    /// Counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    pub faces: Vec<Face>,
 }
 
 impl Placed<'_> {

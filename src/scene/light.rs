@@ -1,28 +1,63 @@
 use glam::Vec3;
 
-/// A polygonal area light: the planar islands of one emissive instance, all of the same radiance.
+/// The share of a thing's seen area from which on, if it glows, the thing is a lamp.
+const LAMP_SHARE: f32 = 0.5;
+
+/// A polygonal area light: the flat parts of one emissive instance, all of the same radiance.
 #[derive(Clone, Debug)]
 pub struct Light {
     /// What users call it; may be empty.
     pub name: String,
-    /// Linear Rec. 709, >= 0; of a textured emitter, the mean over it.
+    /// Linear Rec. 709, >= 0; the mean over the emitter of what is seen of its glow.
     pub radiance: Vec3,
-    /// Mean of the emissive texture over the emitter, linear, in \[0, 1\]; 1 where there is none.
-    pub texture_mean: Vec3,
+    /// The share of the emitter's emission that is seen, in \[0, 1\], by channel: the mean over it of what its emissive
+    /// texture, and its opacity where that counts, leave.
+    pub seen_share: Vec3,
+    /// The share of the emitter's seen area that glows, in (0, 1\].
+    pub glowing_share: f32,
     /// Emits from both faces; otherwise only to the side of its polygons' normals.
     pub two_sided: bool,
     /// In world space; at least one.
     pub polygons: Vec<Polygon>,
     /// The emitter that is drawn for it (index into `Scene::instances`).
     pub instance: usize,
+    /// More emitters that are drawn for it: each lies in its plane, within others that shine to the same side.
+    pub doubles: Vec<usize>,
+}
+
+impl Default for Light {
+    /// Black and without area; all of its emitter is seen to glow.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            radiance: Vec3::ZERO,
+            seen_share: Vec3::ONE,
+            glowing_share: 1.0,
+            two_sided: false,
+            polygons: Vec::new(),
+            instance: 0,
+            doubles: Vec::new(),
+        }
+    }
 }
 
 impl Light {
-    /// The radiance of the emitter's surface where its texture is white, linear Rec. 709, >= 0; 0 in the channels in
-    /// which all that it shows of the texture is black.
+    /// Whether its emitter is a lamp: at least half of what is seen of it glows. Otherwise it is a thing that carries a
+    /// light, a screen or a label perhaps.
+    pub fn is_lamp(&self) -> bool {
+        self.glowing_share >= LAMP_SHARE
+    }
+
+    /// The emitters that are drawn for it: indices into `Scene::instances`.
+    pub fn emitters(&self) -> impl Iterator<Item = usize> {
+        std::iter::once(self.instance).chain(self.doubles.iter().copied())
+    }
+
+    /// The radiance of the emitter's surface where its texture is white, linear Rec. 709, >= 0; 0 in the channels of
+    /// which nothing is seen.
     pub fn emission(&self) -> Vec3 {
-        let divide = |radiance: f32, mean: f32| if mean > 0.0 { radiance / mean } else { 0.0 };
-        let [r, g, b] = [0, 1, 2].map(|channel| divide(self.radiance[channel], self.texture_mean[channel]));
+        let divide = |radiance: f32, share: f32| if share > 0.0 { radiance / share } else { 0.0 };
+        let [r, g, b] = [0, 1, 2].map(|channel| divide(self.radiance[channel], self.seen_share[channel]));
         Vec3::new(r, g, b).min(Vec3::MAX)
     }
 

@@ -10,11 +10,22 @@ const STRAIGHT_TOLERANCE: f64 = 1e-6;
 /// How far edges must reach past each other to count as crossing, relative to the island's size.
 const CROSSING_TOLERANCE: f64 = 1e-4;
 
-/// The closed contours around `triangles`, whose vertices are in `positions`. They lie in a plane of unit `normal` and
+/// The closed contours around `triangles` in a plane, whose vertices are in `positions`. They lie in a plane of unit `normal` and
 /// run counter-clockwise seen from the side to which it points. So do the contours around their area; contours around
 /// holes run clockwise. Vertices on straight runs are dropped. Linear functions have the same integral over
 /// the contours as over the triangles.
 pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DVec3], normal: DVec3) -> Vec<Vec<Vec3>> {
+    contours(triangles, positions, normal, STRAIGHT_TOLERANCE)
+}
+
+/// The same of triangles that lie near a plane: vertices are dropped that are nearer than `tolerance`, relative to the
+/// contours' size, to the lines that replace them.
+pub(super) fn contours(
+    triangles: impl Iterator<Item = [u32; 3]>,
+    positions: &[DVec3],
+    normal: DVec3,
+    tolerance: f64,
+) -> Vec<Vec<Vec3>> {
     let (right, up) = normal.any_orthonormal_pair();
     let loops = loops(boundary(triangles));
     let corners = || loops.iter().flatten().map(|&corner| positions[corner as usize]);
@@ -25,7 +36,7 @@ pub(super) fn outline(triangles: impl Iterator<Item = [u32; 3]>, positions: &[DV
     };
     let reach = corners().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
     let magnitude = corners().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-    let tolerance = STRAIGHT_TOLERANCE * reach + 2.0 * f64::from(f32::EPSILON) * magnitude;
+    let tolerance = tolerance * reach + 2.0 * f64::from(f32::EPSILON) * magnitude;
     let contours = loops.iter().map(|corners| {
         let flat: Vec<DVec2> = corners.iter().map(|&corner| flatten(corner)).collect();
         let kept = bends(&flat, tolerance);

@@ -1,9 +1,9 @@
-//! Lights for files that have none: a key, a fill and a rim light, as in a photographer's studio.
+//! Lights for files that have none to see by: a key, a fill and a rim light, as in a photographer's studio.
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::notices::Notices;
-use super::{Camera, Instance, Projection, Scene, emitter, framing, lights};
+use super::{Camera, Instance, Projection, Scene, emitter, framing, lighting, lights};
 
 /// Radiance of a white diffuse surface that faces the key, fill or rim light.
 const KEY_LEVEL: f32 = 0.7;
@@ -48,10 +48,22 @@ impl Panel {
     }
 }
 
-/// Adds the rig around the subject, as the first camera sees it, where nothing lights the scene.
-pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
-    let is_dark = scene.lights.is_empty() && scene.punctual_lights.is_empty();
-    let (true, Some(camera)) = (is_dark, scene.cameras.first()) else { return };
+/// Adds the rig where nothing lights the scene, or too faintly to see the subject by.
+pub(super) fn add_where_dark(scene: &mut Scene, notices: &mut Notices) {
+    let added = || "key, fill and rim lights are added".to_owned();
+    if scene.lights.is_empty() && scene.punctual_lights.is_empty() {
+        notices.add("nothing in the file lights the scene", added);
+    } else if !lighting::shows_subject(scene) {
+        notices.add("what glows in the file is too faint to see the subject by", added);
+    } else {
+        return;
+    }
+    add(scene, notices);
+}
+
+/// Adds the rig around the subject, as the first camera sees it.
+pub(super) fn add(scene: &mut Scene, notices: &mut Notices) {
+    let Some(camera) = scene.cameras.first() else { return };
     let first = scene.instances.len();
     let subject = scene.subject();
     let (center, radius) = (subject.center(), framing::radius(&subject));
@@ -65,7 +77,6 @@ pub(super) fn add_rig(scene: &mut Scene, notices: &mut Notices) {
         add_panel(scene, panel, world_from_mesh);
     }
     lights::add_lights(scene, first, notices);
-    notices.add("nothing in the file lights the scene", || "key, fill and rim lights are added".to_owned());
 }
 
 /// Whether any part of a panel's face may be in the frame.

@@ -127,10 +127,10 @@ fn scene(size: f32) -> Scene {
     let light = Light {
         name: "key".into(),
         radiance: Vec3::new(4.0, 2.0, 1.0),
-        texture_mean: Vec3::ONE,
         two_sided: false,
         polygons: vec![Polygon { contours: vec![corners.clone()], normal: Vec3::Z }],
         instance: 1,
+        ..Light::default()
     };
     let camera = Camera {
         name: "camera".into(),

@@ -117,9 +117,9 @@ fn light(instance: usize, world_from_mesh: Mat4) -> Light {
     Light {
         name: format!("lamp {instance}"),
         radiance: Vec3::ONE,
-        texture_mean: Vec3::ONE,
         two_sided: false,
         polygons: vec![Polygon { contours: vec![contour], normal: Vec3::NEG_Z }],
         instance,
+        ..Light::default()
     }
 }

@@ -186,10 +186,10 @@ fn light((index, thing): (usize, &Thing)) -> Light {
     Light {
         name: format!("thing {index}"),
         radiance: thing.material.emission,
-        texture_mean: Vec3::ONE,
         two_sided: thing.material.double_sided,
         polygons: vec![Polygon { contours, normal }],
         instance: index,
+        ..Light::default()
     }
 }
 

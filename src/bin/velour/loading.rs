@@ -1,7 +1,7 @@
 //! The flags that say how a scene's file is read.
 
 use clap::Args;
-use velour::scene::gltf::{Options, Pose};
+use velour::scene::gltf::{Options, Pose, Rig};
 
 /// How a scene's file is read.
 #[derive(Args)]
@@ -10,10 +10,14 @@ pub struct Loading {
     /// they were modelled
     #[arg(long, default_value_t, value_name = "file|bind")]
     pub pose: Pose,
+    /// Key, fill and rim lights around the subject: auto, where nothing lights it, or too faintly to see it by; on,
+    /// always; off, never
+    #[arg(long, default_value_t, value_name = "auto|on|off")]
+    pub rig: Rig,
 }
 
 impl Loading {
     pub fn options(&self) -> Options {
-        Options { pose: self.pose }
+        Options { pose: self.pose, rig: self.rig }
     }
 }

@@ -55,10 +55,10 @@ fn scene(material: Material, degrees: f32) -> Scene {
     let light = Light {
         name: "window".to_owned(),
         radiance: emission,
-        texture_mean: Vec3::ONE,
         two_sided: false,
         polygons: vec![Polygon { contours: vec![corners], normal: back }],
         instance: 1,
+        ..Light::default()
     };
     Scene {
         meshes: vec![sphere(), window],

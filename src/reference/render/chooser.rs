@@ -122,10 +122,10 @@ mod tests {
         let light = |contours: Vec<Vec<Vec3>>, normal, radiance| Light {
             name: String::new(),
             radiance,
-            texture_mean: Vec3::ONE,
             two_sided: false,
             polygons: vec![Polygon { contours, normal }],
             instance: 0,
+            ..Light::default()
         };
         let lights = vec![
             light(vec![plane(&square(0.8), 1.0), plane(&hole, 1.0)], Vec3::NEG_Z, Vec3::new(3.0, 1.0, 0.5)),

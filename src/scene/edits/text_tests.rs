@@ -10,10 +10,10 @@ fn scene() -> Scene {
     let light = |name: &str| Light {
         name: name.to_owned(),
         radiance: Vec3::ONE,
-        texture_mean: Vec3::ONE,
         two_sided: false,
         polygons: vec![polygon.clone()],
         instance: 0,
+        ..Light::default()
     };
     let projection = Projection::Perspective { yfov: 0.7, near: 0.1, far: 100.0 };
     let camera = |name: &str| Camera { name: name.to_owned(), world_from_camera: Mat4::IDENTITY, projection };

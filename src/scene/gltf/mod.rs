@@ -50,7 +50,7 @@ use assembly::Assembly;
 use decoded::Decoded;
 use images::Sources;
 
-pub use options::{Options, Pose};
+pub use options::{Options, Pose, Rig};
 
 /// Extensions of materials and textures that a file may require.
 const SERVED: &[&str] = &[
@@ -74,7 +74,7 @@ pub fn load(path: &Path, options: &Options) -> Result<Scene, SceneError> {
     // Only a path without a file name has no parent.
     let folder = path.parent().unwrap_or(Path::new("."));
     let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder), options));
-    let mut scene = read.map(complete).map_err(|fault| SceneError::new(&file, fault))?;
+    let mut scene = read.map(|read| complete(read, options)).map_err(|fault| SceneError::new(&file, fault))?;
     scene.files.insert(0, path.to_owned());
     Ok(scene)
 }
@@ -82,7 +82,7 @@ pub fn load(path: &Path, options: &Options) -> Result<Scene, SceneError> {
 /// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
 /// [`load`], with `name` in place of the file's.
 pub fn from_slice(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, SceneError> {
-    read(bytes, None, options).map(complete).map_err(|fault| SceneError::new(name, fault))
+    read(bytes, None, options).map(|read| complete(read, options)).map_err(|fault| SceneError::new(name, fault))
 }
 
 /// What the file holds, and what there is to say about it.
@@ -122,10 +122,14 @@ fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene
 }
 
 /// Adds what the file leaves to be found or made: area lights, a camera, a rig. By then its bytes have been freed.
-fn complete((mut scene, mut notices): (Scene, Notices)) -> Scene {
+fn complete((mut scene, mut notices): (Scene, Notices), options: &Options) -> Scene {
     lights::add_lights(&mut scene, 0, &mut notices);
     framing::add_camera(&mut scene, &mut notices);
-    rig::add_rig(&mut scene, &mut notices);
+    match options.rig {
+        Rig::Auto => rig::add_where_dark(&mut scene, &mut notices),
+        Rig::On => rig::add(&mut scene, &mut notices),
+        Rig::Off => {}
+    }
     scene.notices = notices.into_lines().collect();
     scene
 }

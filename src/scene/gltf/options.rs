@@ -8,6 +8,8 @@ use std::str::FromStr;
 pub struct Options {
     /// How meshes with skins or morph targets stand.
     pub pose: Pose,
+    /// Whether the rig of key, fill and rim light is added.
+    pub rig: Rig,
 }
 
 /// How meshes with skins or morph targets stand.
@@ -41,5 +43,43 @@ impl FromStr for Pose {
     fn from_str(text: &str) -> Result<Self, String> {
         let named = Self::NAMES.into_iter().find(|(name, _)| *name == text);
         named.map(|(_, pose)| pose).ok_or_else(|| "give file or bind".to_owned())
+    }
+}
+
+/// Whether the rig of key, fill and rim light is added to what lights a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rig {
+    /// Where nothing lights the scene, or too faintly to see the subject by: lights of which all areas times radiances
+    /// together are below 0.001 pi times the square of the subject's radius, unless they are so near that on 2% of its
+    /// surface, or where they shine straight at it, it would have a radiance of 0.002 if it were white and matte.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
+
+impl Rig {
+    /// Each with the name that flags give it.
+    pub const NAMES: [(&'static str, Self); 3] = [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
+}
+
+impl Display for Rig {
+    fn fmt(&self, formatter: &mut Formatter) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Self::Auto => "auto",
+            Self::On => "on",
+            Self::Off => "off",
+        })
+    }
+}
+
+impl FromStr for Rig {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let named = Self::NAMES.into_iter().find(|(name, _)| *name == text);
+        named.map(|(_, rig)| rig).ok_or_else(|| "give auto, on or off".to_owned())
     }
 }

@@ -5,11 +5,12 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::shapes::{grid, scene};
-use crate::scene::emission::Radiances;
-use crate::scene::{Image, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap};
+use crate::scene::emission::Glows;
+use crate::scene::notices::Notices;
+use crate::scene::{AlphaMode, Filter, Image, Sampler, Scene, Texture, TextureSlot, TextureUse, Wrap, lights};
 
 fn radiance(scene: &Scene, instance: usize) -> Vec3 {
-    Radiances::new(scene).of(instance)
+    scene.materials[0].emission * Glows::new(scene).of(instance).emission.as_vec3()
 }
 
 /// The inverse of sRGB's curve, by hand.
@@ -123,10 +124,10 @@ fn each_instance_has_the_mean_over_its_own_area() {
     scene.instances.extend([scene.instances[0].clone(), scene.instances[0].clone()]);
     scene.instances[1].world_from_mesh = Mat4::from_scale(Vec3::new(1.0, 3.0, 1.0));
     scene.instances[2].world_from_mesh = Mat4::from_scale(Vec3::new(1.0, 1.0, 4.0));
-    let mut radiances = Radiances::new(&scene);
+    let mut glows = Glows::new(&scene);
     for (instance, share) in [0.5, 0.75, 0.2].into_iter().enumerate() {
-        assert!((radiances.of(instance).x - 4.0 * share).abs() < 1e-5, "{instance}");
-        assert!(radiances.is_bright(instance));
+        assert!((glows.of(instance).emission.x - share).abs() < 1e-5, "{instance}");
+        assert!(glows.is_bright(instance));
     }
 }
 
@@ -142,5 +143,93 @@ fn odd_coordinates_give_finite_means() {
             scene.meshes[0].tex_coords[0].clear();
             assert!(radiance(&scene, 0).is_finite());
         }
+    }
+}
+
+/// Alpha of the base colour's texture: 0 on the left half, `alpha` on the right.
+fn cut(scene: &mut Scene, alpha: u8, mode: AlphaMode) {
+    let texels = (0..64 * 64).map(|index| [9, 99, 200, if index % 64 < 32 { 0 } else { alpha }]).collect();
+    scene.images.push(Image { name: String::new(), width: 64, height: 64, texels });
+    let sampler = Sampler { magnify: Filter::Nearest, ..Sampler::DEFAULT };
+    scene.textures.push(Texture { image: 1, sampler });
+    let used = TextureUse { texture: 1, tex_coord: 0, uv_from_tex_coord: Affine2::IDENTITY };
+    scene.materials[0].textures[TextureSlot::BaseColor as usize] = Some(used);
+    scene.materials[0].alpha_mode = mode;
+}
+
+#[test]
+fn what_is_cut_out_or_transparent_does_not_shine() {
+    let (mask, blend) = (AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend);
+    for textured in [true, false] {
+        // White where there is a texture.
+        let seen = |alpha: u8, mode: AlphaMode, opacity: f32| {
+            let mut scene = emitter(3, [2, 2], |_| [255; 4]);
+            cut(&mut scene, alpha, mode);
+            scene.materials[0].opacity = opacity;
+            if !textured {
+                scene.materials[0].textures[TextureSlot::Emission as usize] = None;
+            }
+            Glows::new(&scene).of(0)
+        };
+        for (alpha, mode, opacity, expected, area) in [
+            (255, AlphaMode::Opaque, 0.3, 1.0, 1.0),
+            (255, mask, 1.0, 0.5, 0.5),
+            (200, mask, 1.0, 0.5, 0.5),
+            (100, mask, 1.0, 0.0, 0.0),
+            (200, mask, 0.5, 0.0, 0.0),
+            (255, blend, 1.0, 0.5, 0.5),
+            (51, blend, 1.0, 0.1, 0.5),
+            (51, blend, 0.5, 0.05, 0.5),
+        ] {
+            let found = seen(alpha, mode, opacity);
+            assert!((found.emission - expected).abs().max_element() < 1e-3, "{alpha} {mode:?} {opacity}: {found:?}");
+            assert!((found.area - area).abs() < 2e-3, "{alpha} {mode:?} {opacity}: {found:?}");
+            assert_eq!(found.glowing, found.area);
+        }
+    }
+}
+
+/// Without textures, by the factor and by what vertices say: over a triangle, alpha runs from 0 to 1 along x.
+#[test]
+fn opacity_counts_without_textures() {
+    for (mode, expected) in [(AlphaMode::Blend, 0.5), (AlphaMode::Mask { cutoff: 0.25 }, 0.75)] {
+        let mut scene = emitter(4, [1, 1], |_| [255; 4]);
+        scene.materials[0].textures = Default::default();
+        scene.materials[0].alpha_mode = mode;
+        let mesh = &mut scene.meshes[0];
+        mesh.colors = mesh.positions.iter().map(|position| [0, 0, 0, (65535.0 * position.x) as u16]).collect();
+        let found = Glows::new(&scene).of(0).emission.x;
+        assert!((found - expected).abs() < 1e-3, "{mode:?}: {found}");
+        scene.meshes[0].colors.clear();
+        scene.materials[0].opacity = 0.125;
+        let found = Glows::new(&scene).of(0).emission.x;
+        assert_eq!(found, if mode == AlphaMode::Blend { 0.125 } else { 0.0 });
+    }
+}
+
+/// All of a square shows the middle of the white texel beside a black one, or is between the two by a quarter.
+#[test]
+fn textures_are_looked_up_as_they_are_shown() {
+    let mut scene = emitter(2, [2, 1], |index| [if index == 0 { 0 } else { 255 }; 4]);
+    scene.textures[0].sampler.wrap = [Wrap::Clamp; 2];
+    used(&mut scene).uv_from_tex_coord =
+        Affine2::from_scale_angle_translation(Vec2::new(0.5, 1.0), 0.0, Vec2::new(0.5, 0.0));
+    for (filter, expected) in [(Filter::Nearest, 1.0), (Filter::Linear, 0.875)] {
+        scene.textures[0].sampler.magnify = filter;
+        let found = Glows::new(&scene).of(0);
+        assert!((found.emission.x - expected).abs() < 1e-4, "{filter:?}: {found:?}");
+    }
+}
+
+#[test]
+fn a_label_on_a_thing_is_told_from_a_lamp() {
+    for (columns, glowing) in [(64, 1.0), (40, 0.625), (4, 0.0625)] {
+        let mut scene = emitter(2, [64, 64], |index| [if index % 64 < columns { 9 } else { 0 }; 4]);
+        scene.textures[0].sampler.magnify = Filter::Nearest;
+        let seen = Glows::new(&scene).of(0);
+        assert!((seen.glowing - glowing).abs() < 1e-3 && seen.area == 1.0, "{columns}: {seen:?}");
+        scene.materials[0].emission = Vec3::ONE;
+        lights::add_lights(&mut scene, 0, &mut Notices::default());
+        assert_eq!(scene.lights[0].is_lamp(), columns > 32, "{columns}: {}", scene.lights[0].glowing_share);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use glam::{Mat3, Mat4, Quat, Vec3};
+use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -222,16 +222,15 @@ fn a_million_triangles_take_seconds() {
     let mesh = grid(708, ALL, FLAT);
     assert!(mesh.indices.len() > 3_000_000);
     assert_eq!(corners(&polygons(&mesh)), [4]);
-    let mut glowing = scene(sphere(708), Mat4::IDENTITY);
-    glowing.materials[0].emission = Vec3::ONE;
-    let second = glowing.instances[0].clone();
-    glowing.instances.push(second);
-    let mut notices = Notices::default();
-    lights::add_lights(&mut glowing, 0, &mut notices);
-    assert!(glowing.lights.is_empty());
-    let lines: Vec<String> = notices.into_lines().collect();
-    assert_eq!(lines.len(), 1);
-    assert!(lines[0].starts_with("emitters of more than 256 flat parts glow but light nothing"), "{lines:?}");
+    let (polygons, lines) = lit(sphere(708));
+    assert!(polygons.is_empty());
+    assert!(
+        lines[0].starts_with("emitters of many flat parts past 262144 triangles glow but light nothing"),
+        "{lines:?}"
+    );
+    let (polygons, lines) = lit(sphere(255));
+    assert_eq!((polygons.len(), lines.len()), (256, 1));
+    assert!(lines[0].starts_with("emitters of more flat parts than there is room for light by fewer"), "{lines:?}");
     // About 4 s; what is quadratic takes hours. The room is for machines that do other things beside.
     assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
 }
@@ -260,33 +259,43 @@ fn triangles_that_coincide_light_once_and_those_back_to_back_to_both_sides() {
 }
 
 #[test]
-fn an_emitter_that_crosses_itself_is_said_and_lights_with_all_its_area() {
+fn an_emitter_that_crosses_itself_shines_once_where_it_overlaps() {
     // A strip that goes one and a quarter times around in its plane and comes out over itself, or past itself.
-    let strip = |drift: f32| {
+    for drift in [0.005, 0.05] {
         let mut mesh = Mesh::default();
         for step in 0..=40u32 {
-            let arm = glam::Vec2::from_angle(step as f32 * std::f32::consts::TAU / 31.3).extend(0.0);
+            let arm = Vec2::from_angle(step as f32 * std::f32::consts::TAU / 31.3).extend(0.0);
             let inner = 1.0 + drift * step as f32;
             mesh.positions.extend([inner * arm, (inner + 0.5) * arm]);
         }
         mesh.normals = vec![Vec3::Z; mesh.positions.len()];
         mesh.indices = (0..40).flat_map(|step| [0, 1, 2, 2, 1, 3].map(|corner| 2 * step + corner)).collect();
-        mesh
-    };
-    for (drift, said) in [(0.005, 1), (0.05, 0)] {
-        let mesh = strip(drift);
-        let area_of = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
-            f64::from((b - a).cross(c - a).z) / 2.0
+        // The squares of a fine grid whose middles lie in any of the triangles.
+        let triangles: Vec<[Vec2; 3]> = mesh
+            .indices
+            .as_chunks::<3>()
+            .0
+            .iter()
+            .map(|triangle| triangle.map(|corner| mesh.positions[corner as usize].truncate()))
+            .collect();
+        let is_in = |at: Vec2, [a, b, c]: [Vec2; 3]| {
+            [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| (q - p).perp_dot(at - p) >= 0.0)
         };
-        let expected: f64 = mesh.indices.as_chunks::<3>().0.iter().map(area_of).sum();
+        const SIDE: u32 = 900;
+        let cell = 8.0 / SIDE as f32;
+        let middle = |i: u32| (i as f32 + 0.5) * cell - 4.0;
+        let count = (0..SIDE * SIDE)
+            .filter(|&at| {
+                let at = Vec2::new(middle(at % SIDE), middle(at / SIDE));
+                triangles.iter().any(|&triangle| is_in(at, triangle))
+            })
+            .count();
+        let expected = count as f64 * f64::from(cell * cell);
         let (polygons, notices) = lit(mesh.clone());
         let found: f64 = polygons.iter().map(area).sum();
-        assert!((found / expected - 1.0).abs() < 1e-4, "{drift}: {found} {expected}");
-        assert_eq!(notices.len(), said, "{drift} {notices:?}");
+        assert!((found / expected - 1.0).abs() < 2e-3, "{drift}: {found} {expected}");
+        assert_eq!(notices.len(), 0, "{drift} {notices:?}");
     }
-    let (_, notices) = lit(strip(0.005));
-    assert!(notices[0].starts_with("emitters whose outline crosses itself light twice"), "{notices:?}");
 }
 
 #[test]
@@ -306,9 +315,13 @@ fn folded_and_shuffled_triangles_in_one_plane_give_finite_lights() {
 }
 
 #[test]
-fn two_hundred_and_fifty_six_squares_all_light() {
-    let (polygons, notices) = lit(grid(32, |i, j| i % 2 == 0 && j % 2 == 0, FLAT));
+fn squares_all_light_as_long_as_their_corners_fit() {
+    // 2025 have 8100 corners, and 2116 have 8464.
+    let squares = |side: u32| lit(grid(2 * side, |i, j| i % 2 == 0 && j % 2 == 0, FLAT));
+    let (polygons, notices) = squares(16);
     assert_eq!((corners(&polygons), notices.len()), (vec![4; 256], 0));
-    let (polygons, notices) = lit(grid(34, |i, j| i % 2 == 0 && j % 2 == 0, FLAT));
-    assert_eq!((polygons.len(), notices.len()), (0, 1));
+    let (polygons, notices) = squares(45);
+    assert_eq!((corners(&polygons), notices.len()), (vec![4; 2025], 1));
+    let (polygons, notices) = squares(46);
+    assert_eq!((polygons.len(), notices.len()), (0, 2));
 }

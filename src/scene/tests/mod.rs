@@ -1,9 +1,12 @@
 //! Lights, views and settings of scenes made in memory.
 
+mod clusters;
 mod drawn;
 mod edits;
 mod emission;
 mod islands;
+mod lighting;
+mod overlaps;
 pub mod shapes;
 mod tangents;
 mod textures;

@@ -30,7 +30,7 @@ fn sets() -> Vec<Scene> {
 fn added(mut scene: Scene) -> Scene {
     let mut notices = Notices::default();
     framing::add_camera(&mut scene, &mut notices);
-    rig::add_rig(&mut scene, &mut notices);
+    rig::add_where_dark(&mut scene, &mut notices);
     scene.notices = notices.into_lines().collect();
     scene
 }

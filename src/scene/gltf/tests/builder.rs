@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use serde_json::{Value, json};
 
-use crate::scene::gltf::{Options, from_slice};
+use crate::scene::gltf::{Options, Rig, from_slice};
 use crate::scene::{Material, Mesh, PunctualKind, Scene, TextureSlot};
 
 /// A file under construction: JSON, and the bytes of its one buffer.
@@ -195,6 +195,11 @@ impl Builder {
 
     pub fn read(&self) -> Scene {
         read(&self.glb()).unwrap()
+    }
+
+    /// The scene without the rig, whatever lights it.
+    pub fn read_without_rig(&self) -> Scene {
+        read_as(&self.glb(), &Options { rig: Rig::Off, ..Options::default() }).unwrap()
     }
 
     /// The one line that is said of the file, which must be broken.

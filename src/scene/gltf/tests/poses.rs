@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::scene::gltf::{Options, Pose};
 
 fn bind(file: &Builder) -> Scene {
-    read_as(&file.glb(), &Options { pose: Pose::Bind }).unwrap()
+    read_as(&file.glb(), &Options { pose: Pose::Bind, ..Options::default() }).unwrap()
 }
 
 #[test]
