@@ -7,7 +7,7 @@ use crate::picture::ToneCurve;
 pub struct Settings {
     /// Which lobes are summed.
     pub lobes: Lobes,
-    /// Whether emitters that light the scene are drawn.
+    /// Whether lamps are drawn: emitters that light the scene, and of whose seen surface at least half glows.
     pub lights_visible: bool,
     /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
     pub ambient: Vec3,

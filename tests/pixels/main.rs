@@ -9,6 +9,7 @@ mod comparison;
 mod documented;
 mod edge_on;
 mod embedded;
+mod emitters;
 mod far;
 mod golden;
 mod lights;

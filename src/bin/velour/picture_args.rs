@@ -59,7 +59,7 @@ pub struct PictureArgs {
     /// What is summed, of sheen, diffuse, specular and emission; or none [default: all]
     #[arg(long, value_name = "LIST", value_parser = read(Value::lobes))]
     pub lobes: Option<Lobes>,
-    /// Emitters that light the scene are drawn [default: on]
+    /// Lamps are drawn: emitters that light the scene and of whose surface at least half glows [default: on]
     #[arg(long, value_enum, value_name = "on|off")]
     pub lights_visible: Option<Switch>,
     /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0 [default: 0,0,0]
