@@ -205,7 +205,7 @@ impl Frame {
 
     /// Saves the picture as it is shown, without the panel, into the current folder; says where, or why not.
     pub fn screenshot(&self, state: &State, table: &SheenTable) -> String {
-        self.picture(state, table).and_then(|picture| native::save(&picture)).unwrap_or_else(|error| error)
+        self.picture(state, table).and_then(|picture| native::save(&picture, state)).unwrap_or_else(|error| error)
     }
 
     fn picture(&self, state: &State, table: &SheenTable) -> Result<DisplayImage, String> {

@@ -4,6 +4,7 @@ mod bad_input;
 mod base;
 mod borders;
 mod command;
+mod comments;
 mod compare;
 mod comparison;
 mod documented;

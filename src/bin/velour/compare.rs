@@ -7,6 +7,7 @@ use serde_json::json;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::{Differences, FlipMap, Format, Picture};
 
+use crate::comment::command;
 use crate::console::say;
 use crate::failure::Failure;
 use crate::output::is_same_file;
@@ -46,7 +47,7 @@ pub fn run(arguments: &Compare) -> Result<(), Failure> {
     let differences = Differences::between(&a, &b);
     let flip = with_progress("flip", |step| FlipMap::between(&a, &b, step));
     if let Some(path) = heatmap {
-        let bytes = flip.heat_map().to_png().map_err(Failure::input)?;
+        let bytes = flip.heat_map().to_png_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(path, &bytes).map_err(Failure::input)?;
     }
     if arguments.json {

@@ -5,6 +5,7 @@
 
 mod args;
 mod assignment;
+mod comment;
 mod compare;
 mod console;
 mod failure;

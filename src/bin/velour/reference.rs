@@ -10,6 +10,7 @@ use velour::picture::{Format, FormatError};
 use velour::reference::{self, Effort, Options, Picture, ReferenceError};
 use velour::scene::Settings;
 
+use crate::comment::command;
 use crate::console::{complain, say};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
@@ -90,7 +91,7 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
     let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
     if let Some(errors) = &arguments.errors {
-        let bytes = picture.errors.to_exr().map_err(Failure::input)?;
+        let bytes = picture.errors.to_exr_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(errors, &bytes).map_err(Failure::input)?;
     }
     finish(&arguments.picture, &inputs, &picture, counts, &mut timing)
@@ -155,8 +156,8 @@ pub fn render(
 fn encoded(picture: &Picture, inputs: &Inputs) -> Result<Vec<u8>, FormatError> {
     let Settings { exposure, tone, .. } = inputs.edits.settings();
     match inputs.format {
-        Format::Png => picture.radiance.display(exposure, tone).to_png(),
-        Format::Exr => picture.radiance.to_exr(),
+        Format::Png => picture.radiance.display(exposure, tone).to_png_with_comment(&command()),
+        Format::Exr => picture.radiance.to_exr_with_comment(&command()),
     }
 }
 

@@ -8,6 +8,7 @@ use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Offscreen, RadianceFormat, RenderError};
 use velour::scene::{Edits, Layering, Scene};
 
+use crate::comment::command;
 use crate::console::{complain, say};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
@@ -100,11 +101,11 @@ fn draw(
     let encoded = match format {
         Format::Png => {
             let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, &camera, size, settings)));
-            timing.measure("encode", || Ok(picture?.to_png()))
+            timing.measure("encode", || Ok(picture?.to_png_with_comment(&command())))
         }
         Format::Exr => {
             let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, &camera, size, settings)));
-            timing.measure("encode", || Ok(picture?.to_exr()))
+            timing.measure("encode", || Ok(picture?.to_exr_with_comment(&command())))
         }
     };
     Ok((encoded.map_err(failure)?.map_err(Failure::input)?, radiance))

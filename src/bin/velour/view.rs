@@ -12,6 +12,7 @@ use velour::scene::{Edits, Scene};
 use velour::table::SheenTable;
 use velour::viewer::ViewerError;
 
+use crate::comment::command;
 use crate::console::{complain, say};
 use crate::failure::Failure;
 use crate::loading::Loading;
@@ -92,5 +93,5 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
             picture
         }
     };
-    write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
+    write_atomically(output, &picture.to_png_with_comment(&command()).map_err(Failure::input)?).map_err(Failure::input)
 }
