@@ -9,10 +9,15 @@ mod extent;
 #[cfg(feature = "cli")]
 mod flip;
 mod format;
+mod layers;
+#[cfg(test)]
+#[path = "tests/layers.rs"]
+mod layers_tests;
 #[cfg(test)]
 #[path = "tests/meaning.rs"]
 mod meaning_tests;
 mod read;
+mod samples;
 mod tone;
 mod write;
 

@@ -12,6 +12,7 @@ mod edge_on;
 mod embedded;
 mod far;
 mod golden;
+mod layers;
 mod lights;
 mod modelling;
 mod opengl;
