@@ -57,6 +57,22 @@ impl LinearImage {
         let show = |pixel: &[f32; 3]| encoded(tone.apply(pixel.map(|channel| channel * gain)));
         DisplayImage { width: self.width, height: self.height, pixels: self.pixels.iter().map(show).collect() }
     }
+
+    /// The same where unlit surfaces, which are shown as they are, cover a share of each pixel: `unlit` has what of its
+    /// radiance they show, and that share, in [0, 1]. The sum of it and the exposed rest goes through the tone curve by
+    /// the share of the rest.
+    pub fn display_with_unlit(&self, unlit: &[[f32; 4]], exposure: f32, tone: ToneCurve) -> DisplayImage {
+        assert_eq!(unlit.len(), self.pixels.len(), "number of pixels");
+        let gain = exposure.exp2();
+        let show = |(pixel, [red, green, blue, share]): (&[f32; 3], &[f32; 4])| {
+            let as_it_is = [red, green, blue];
+            let exposed = std::array::from_fn(|index| gain * (pixel[index] - as_it_is[index]) + as_it_is[index]);
+            let shown = [ToneCurve::None, tone].map(|curve| curve.apply(exposed));
+            encoded(std::array::from_fn(|index| share * shown[0][index] + (1.0 - share) * shown[1][index]))
+        };
+        let pixels = self.pixels.iter().zip(unlit).map(show).collect();
+        DisplayImage { width: self.width, height: self.height, pixels }
+    }
 }
 
 fn encoded(shown: [f32; 3]) -> [u8; 3] {

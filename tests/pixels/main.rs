@@ -30,3 +30,4 @@ mod state;
 mod tables;
 mod textures;
 mod truth;
+mod unlit;

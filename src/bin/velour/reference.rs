@@ -156,7 +156,7 @@ pub fn render(
 fn encoded(picture: &Picture, inputs: &Inputs) -> Result<Vec<u8>, FormatError> {
     let Settings { exposure, tone, .. } = inputs.edits.settings();
     match inputs.format {
-        Format::Png => picture.radiance.display(exposure, tone).to_png_with_comment(&command()),
+        Format::Png => picture.display(exposure, tone).to_png_with_comment(&command()),
         Format::Exr => picture.radiance.to_exr_with_comment(&command()),
     }
 }

@@ -50,6 +50,5 @@ pub fn plain(why: &DeviceError, scene: &Scene, edits: &Edits, size: [u32; 2]) ->
             true
         })
     });
-    let radiance = picture.map_err(reference::failure)?.radiance;
-    Ok(radiance.display(drawn.settings.exposure, drawn.settings.tone))
+    Ok(picture.map_err(reference::failure)?.display(drawn.settings.exposure, drawn.settings.tone))
 }

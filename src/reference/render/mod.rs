@@ -49,8 +49,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use camera::View;
 use context::Context;
-use film::Film;
-use glam::DVec3;
+use film::{Film, Means};
+use glam::{DVec3, DVec4};
+use path::Seen;
 use rayon::prelude::*;
 use uniforms::{Sample, Uniforms};
 
@@ -112,22 +113,22 @@ impl<'a> Reference<'a> {
         let (batches, tiles) = (batches(samples), pixels.div_ceil(TILE as u64));
         let all = batches.clone().count() as u64 * tiles;
         let (done, stopped) = (AtomicU64::new(0), AtomicBool::new(false));
-        let mut film = Film::new(size);
+        let mut film = Film::new(size, self.context.world.has_unlit);
         for (index, count) in (0_u64..).zip(batches) {
             let tile = |tile: u64| {
                 let is_needed = index == 0 || !stopped.load(Ordering::Relaxed);
                 let range = tile * TILE as u64..pixels.min((tile + 1) * TILE as u64);
                 let means =
-                    if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Vec::new() };
+                    if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Means::default() };
                 if !go_on(done.fetch_add(1, Ordering::Relaxed) + 1, all) {
                     stopped.store(true, Ordering::Relaxed);
                 }
                 means
             };
-            let means: Vec<Vec<DVec3>> = (0..tiles).into_par_iter().map(tile).collect();
-            let is_whole = means.iter().map(Vec::len).sum::<usize>() as u64 == pixels;
+            let means: Vec<Means> = (0..tiles).into_par_iter().map(tile).collect();
+            let is_whole = means.iter().map(|means| means.radiance.len()).sum::<usize>() as u64 == pixels;
             if is_whole {
-                film.add(means.into_iter().flatten(), count);
+                film.add(&means, count);
             }
             if stopped.load(Ordering::Relaxed) {
                 break;
@@ -143,7 +144,7 @@ impl<'a> Reference<'a> {
         width: u32,
         range: std::ops::Range<u64>,
         (seed, batch, count): (u64, u64, u64),
-    ) -> Vec<DVec3> {
+    ) -> Means {
         let mut rays = 0;
         let pixel = |pixel: u64| {
             let corner = [pixel % u64::from(width), pixel / u64::from(width)].map(|at| at as f64);
@@ -152,13 +153,20 @@ impl<'a> Reference<'a> {
                 let [x, y, ..] = sample.uniforms.next();
                 let [x, y] = if self.context.options.filter == Filter::Box { [x, y] } else { [0.5, 0.5] };
                 let (ray, range) = view.ray([corner[0] + x, corner[1] + y]);
-                let radiance = path::radiance(&self.context, &ray, range, &mut sample);
+                let seen = path::seen(&self.context, &ray, range, &mut sample);
                 rays += sample.rays;
-                radiance
+                seen
             };
-            (0..count).map(one).sum::<DVec3>() / count as f64
+            let sum = |(radiance, unlit), seen: Seen| (radiance + seen.radiance, unlit + seen.unlit);
+            (0..count).map(one).fold((DVec3::ZERO, DVec4::ZERO), sum)
         };
-        let means = range.map(pixel).collect();
+        let mut means = Means::default();
+        for (radiance, unlit) in range.map(pixel) {
+            means.radiance.push(radiance / count as f64);
+            if self.context.world.has_unlit {
+                means.unlit.push(unlit / count as f64);
+            }
+        }
         self.rays.fetch_add(rays, Ordering::Relaxed);
         means
     }
