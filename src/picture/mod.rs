@@ -5,6 +5,10 @@
 #[path = "tests/claims.rs"]
 mod claims_tests;
 mod difference;
+mod exposure;
+#[cfg(test)]
+#[path = "tests/exposure.rs"]
+mod exposure_tests;
 mod extent;
 #[cfg(feature = "cli")]
 mod flip;
@@ -22,6 +26,7 @@ mod tone;
 mod write;
 
 pub use difference::{Differences, LargestDifference};
+pub use exposure::{Blank, Exposure, metered, metered_size};
 #[cfg(feature = "cli")]
 pub use flip::{Exposures, FlipMap};
 pub use format::{Format, FormatError};

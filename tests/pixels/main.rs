@@ -10,6 +10,7 @@ mod comparison;
 mod documented;
 mod edge_on;
 mod embedded;
+mod exposures;
 mod far;
 mod golden;
 mod layers;

@@ -8,6 +8,7 @@ mod assignment;
 mod comment;
 mod compare;
 mod console;
+mod exposed;
 mod failure;
 mod figures;
 mod fit;

@@ -100,6 +100,15 @@ impl Picture {
         }
     }
 
+    /// The same picture without what is unlit: black where that covers more than half of a pixel.
+    pub(super) fn lit(&self) -> LinearImage {
+        let mut lit = self.radiance.clone();
+        for (pixel, [.., share]) in lit.pixels.iter_mut().zip(&self.unlit) {
+            *pixel = if *share > 0.5 { [0.0; 3] } else { *pixel };
+        }
+        lit
+    }
+
     /// The mean standard error of the pixels' luminance over their mean luminance: 0.01 is one percent of noise. None
     /// where it is not known, or where everything is black.
     pub fn relative_error(&self) -> Option<f64> {

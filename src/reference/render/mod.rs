@@ -55,6 +55,7 @@ use path::Seen;
 use rayon::prelude::*;
 use uniforms::{Sample, Uniforms};
 
+use crate::picture::{metered, metered_size};
 use crate::scene::{Camera, Drawn};
 use crate::table::SheenTable;
 
@@ -63,6 +64,8 @@ use crate::table::SheenTable;
 const BATCHES: u64 = 32;
 /// Most samples a pixel in a batch: a picture that is ended early is made of whole batches.
 const BATCH_MOST: u64 = 16;
+/// The samples of a picture that is metered: of 256 pixels along its longer side, whose noise averages out.
+const METERED: Effort = Effort { samples: 4, seed: 0 };
 /// Pixels that a thread renders at a time.
 const TILE: usize = 256;
 
@@ -135,6 +138,31 @@ impl<'a> Reference<'a> {
             }
         }
         Ok(film.finish())
+    }
+
+    /// The exposure value that metering takes for a picture of this size ([`metered`](crate::picture::metered)), as real
+    /// time takes it: of what surfaces scatter of direct light without shadows, so that lamps in sight do not count;
+    /// where they scatter nothing, of what they emit. None where nothing is lit. Unlit surfaces do not count. The rays
+    /// are not counted either. `go_on` is as for `render`.
+    pub fn meter(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        go_on: impl Fn(u64, u64) -> bool + Sync,
+    ) -> Result<Option<f32>, ReferenceError> {
+        let (settings, options, rays) = (self.context.settings, self.context.options, self.rays());
+        self.context.options = Options { max_bounces: 0, shadows: false, filter: Filter::Box, ..options };
+        let mut exposure = Ok(None);
+        for emission in [false, settings.lobes.emission] {
+            self.context.settings.lobes.emission = emission;
+            let picture = self.render(camera, metered_size(size), METERED, &go_on);
+            exposure = picture.map(|picture| metered(&picture.lit()));
+            if !matches!(exposure, Ok(None)) {
+                break;
+            }
+        }
+        (self.context.settings, self.context.options, self.rays) = (settings, options, AtomicU64::new(rays));
+        exposure
     }
 
     /// The means of a batch's samples over a range of pixels.
