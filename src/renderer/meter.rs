@@ -94,7 +94,7 @@ impl Renderer {
     }
 }
 
-/// Sums of hundredths are not quite hundredths.
+/// Sums of hundredths are not quite hundredths; and exposures go no farther than `metered` takes them.
 fn hundredths(exposure: f32) -> f32 {
-    (exposure * 100.0).round() / 100.0
+    (exposure.clamp(-100.0, 100.0) * 100.0).round() / 100.0
 }

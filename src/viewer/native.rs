@@ -43,8 +43,12 @@ pub(super) fn finish(gpu: &Gpu) {
 
 /// Saves a picture of what the state shows in the current folder under the first free name; says where.
 pub(super) fn save(picture: &DisplayImage, state: &State) -> Result<String, String> {
-    let comment =
-        format!("velour view of {}, with this state:\n{}", one_line(&state.name), state.edits.to_text(&state.scene));
+    let comment = format!(
+        "velour view of {} at {} EV, with this state:\n{}",
+        one_line(&state.name),
+        state.settings().exposure,
+        state.edits.to_text(&state.scene)
+    );
     save_as("png", &picture.to_png_with_comment(&comment).map_err(|error| error.to_string())?)
 }
 

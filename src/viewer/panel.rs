@@ -102,11 +102,11 @@ fn picture(ui: &mut Ui, state: &mut State) {
 /// A number, or metered: at the start, when that is switched on, and when it is asked for again, so that neither turning
 /// nor a brighter lamp changes it behind the user's back.
 fn exposure(ui: &mut Ui, state: &mut State) {
-    let before = state.settings().exposure;
+    let (before, edited) = (state.settings().exposure, state.edits.exposure);
     let mut stops = before;
     ui.horizontal(|ui| {
         ui.label("exposure");
-        slider(ui, &mut stops, -12.0..=12.0, |slider| slider.suffix(" EV"));
+        slider(ui, &mut stops, -16.0..=16.0, |slider| slider.suffix(" EV"));
     });
     if stops != before {
         state.edits.exposure = Some(stops.into());
@@ -123,6 +123,10 @@ fn exposure(ui: &mut Ui, state: &mut State) {
             state.metered = None;
         }
     });
+    if state.edits.exposure != edited {
+        // What was said of the exposure before is no more so.
+        state.message.clear();
+    }
 }
 
 /// Strength and hue of the ambient light.

@@ -102,6 +102,23 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_automatic_exposure_is_the_metered_one_until_another_is_asked_for() {
+        let edits = |exposure| Edits { exposure, ..Edits::default() };
+        let mut state = State::new("drape", crate::scene::assets::DRAPE.load().unwrap(), edits(Some(Exposure::Auto)));
+        assert!(state.needs_metering() && state.settings().exposure == 0.0);
+        state.metered = Some(-9.37);
+        assert!(!state.needs_metering() && state.settings().exposure == -9.37);
+        // Neither a turn nor a lamp meters anew.
+        state.edits.ambient = Some(Vec3::ONE);
+        state.edits.camera = Some(CameraEdit::Orbit(state.orbit()));
+        assert!(!state.needs_metering());
+        for (exposure, expected) in [(None, 0.0), (Some(1.5.into()), 1.5)] {
+            state.edits = edits(exposure);
+            assert!(!state.needs_metering() && state.settings().exposure == expected);
+        }
+    }
+
+    #[test]
     fn steps_follow_the_scenes_size() {
         for (size, expected) in [(1e-3, 1e-6), (3.0, 0.01), (1e3, 1.0), (0.0, 1e-9), (f64::INFINITY, 1e9)] {
             assert_eq!(step(size), expected, "{size}");

@@ -33,7 +33,7 @@ fn holds_place(word: &str) -> bool {
         Some(rest) => rest.starts_with('=') || !flag.starts_with("--"),
         None => false,
     };
-    PLACES.iter().any(|flag| joined(&flag))
+    PLACES.iter().any(joined)
 }
 
 /// A word as a shell takes it, on one line.
