@@ -79,6 +79,12 @@ fn display_tone(exposed: vec3f) -> vec3f {
     }
 }
 
+// The same where a share of it, in [0, 1], is lit; unlit colours are shown as they are.
+fn display_seen(exposed: vec4f) -> vec3f {
+    let as_it_is = clamp(exposed.rgb, vec3f(0.0), vec3f(1.0));
+    return mix(as_it_is, display_tone(exposed.rgb), exposed.a);
+}
+
 fn display_srgb(linear: vec3f) -> vec4f {
     let curve = 1.055 * pow(max(linear, vec3f(1e-8)), vec3f(1.0 / 2.4)) - 0.055;
     return vec4f(select(curve, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
@@ -87,7 +93,7 @@ fn display_srgb(linear: vec3f) -> vec4f {
 @fragment
 fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    return display_srgb(display_tone(textureLoad(display_radiance, pixel, 0).rgb));
+    return display_srgb(display_seen(textureLoad(display_radiance, pixel, 0)));
 }
 
 // Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.
@@ -96,7 +102,7 @@ fn display_shown_multisampled(@builtin(position) position: vec4f) -> @location(0
     let pixel = vec2u(position.xy) - display_uniforms.origin;
     var sum = vec3f(0.0);
     for (var sample = 0u; sample < 4u; sample++) {
-        sum += display_tone(textureLoad(display_radiance_multisampled, pixel, sample).rgb);
+        sum += display_seen(textureLoad(display_radiance_multisampled, pixel, sample));
     }
     return display_srgb(0.25 * sum);
 }

@@ -140,7 +140,7 @@ fn surfaces_radiance(
     }
     let opacity = select(1.0, surface.opacity, VARIANT_BLEND);
     if VARIANT_UNLIT {
-        return surfaces_stored(surfaces_frame.emission * surface.base_color, opacity);
+        return surfaces_unlit(surfaces_frame.emission * surface.base_color, opacity);
     }
     let lobes = lobes_at(roughness, surface.sheen_alpha, mu);
     let smooth_normal = side * surfaces_normalize(n_world);
@@ -165,7 +165,13 @@ fn surfaces_radiance(
     return surfaces_stored(radiance, opacity);
 }
 
-// As the target holds it: opacity times radiance, kept finite, because blending turns infinities into NaN.
+// As the target holds what is shown as it is: without gain, and 0 for the share of the pixel that is lit. Where it is blended, its opacity is
+// what it leaves of that share (src/renderer/pipelines.rs).
+fn surfaces_unlit(color: vec3f, opacity: f32) -> vec4f {
+    return vec4f(opacity * color, select(0.0, opacity, VARIANT_BLEND));
+}
+
+// As the target holds it: opacity times radiance, kept finite, because blending turns infinities into NaN, and the share of the pixel that is lit.
 fn surfaces_stored(radiance: vec3f, opacity: f32) -> vec4f {
     return vec4f(opacity * min(surfaces_frame.gain * radiance, vec3f(SURFACES_GREATEST)), opacity);
 }

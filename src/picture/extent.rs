@@ -1,11 +1,7 @@
 //! What the head of a .exr claims, read before memory is taken for any of it.
 
-use std::io::BufRead;
-
+use exr::meta::BlockDescription;
 use exr::meta::header::Header;
-use exr::meta::{BlockDescription, MetaData};
-use image::ImageError;
-use image::error::{DecodingError, ImageFormatHint};
 
 /// How much a .exr claims to hold. A decoder takes memory for all of it, however short the file is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,20 +13,15 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Reads the head of a .exr.
-    pub fn read(source: impl BufRead) -> Result<Self, ImageError> {
-        let head = MetaData::read_from_buffered(source, false);
-        let head = head.map_err(|error| {
-            ImageError::Decoding(DecodingError::new(ImageFormatHint::Exact(image::ImageFormat::OpenExr), error))
-        })?;
+    /// What the heads of all parts claim.
+    pub fn of(parts: &[Header]) -> Self {
         let window = |size: exr::math::Vec2<usize>| [size.0 as u64, size.1 as u64];
-        let windows = head
-            .headers
+        let windows = parts
             .iter()
             .flat_map(|part| [window(part.shared_attributes.display_window.size), window(part.layer_size)])
             .collect();
-        let piece_bytes = head.headers.iter().map(piece_bytes).max().unwrap_or(0);
-        Ok(Self { windows, piece_bytes })
+        let piece_bytes = parts.iter().map(piece_bytes).max().unwrap_or(0);
+        Self { windows, piece_bytes }
     }
 }
 

@@ -5,21 +5,33 @@
 #[path = "tests/claims.rs"]
 mod claims_tests;
 mod difference;
+mod exposure;
+#[cfg(test)]
+#[path = "tests/exposure.rs"]
+mod exposure_tests;
 mod extent;
 #[cfg(feature = "cli")]
 mod flip;
 mod format;
+mod layers;
+#[cfg(test)]
+#[path = "tests/layers.rs"]
+mod layers_tests;
+#[cfg(test)]
+#[path = "tests/meaning.rs"]
+mod meaning_tests;
 mod read;
+mod samples;
 mod tone;
+mod write;
 
 pub use difference::{Differences, LargestDifference};
+pub use exposure::{Blank, Exposure, metered, metered_size};
 #[cfg(feature = "cli")]
 pub use flip::{Exposures, FlipMap};
 pub use format::{Format, FormatError};
 pub use read::{MAX_PIXELS, MAX_SIDE, Picture, ReadError};
 pub use tone::{ToneCurve, srgb_from_linear};
-
-use std::io::Cursor;
 
 /// A picture in linear Rec. 709 radiance: rows from the top, pixels from the left.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,51 +56,41 @@ pub struct DisplayImage {
 }
 
 impl LinearImage {
-    /// The bytes of an OpenEXR file of 32-bit floats, with channels R, G and B.
-    pub fn to_exr(&self) -> Result<Vec<u8>, FormatError> {
-        encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb32F, Format::Exr)
-    }
-
     /// The picture as it is shown: radiance times `2^exposure`, through the tone curve, in sRGB.
     pub fn display(&self, exposure: f32, tone: ToneCurve) -> DisplayImage {
         let gain = exposure.exp2();
-        let show = |pixel: &[f32; 3]| {
-            let shown = tone.apply(pixel.map(|channel| channel * gain));
-            shown.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u8)
-        };
+        let show = |pixel: &[f32; 3]| encoded(tone.apply(pixel.map(|channel| channel * gain)));
         DisplayImage { width: self.width, height: self.height, pixels: self.pixels.iter().map(show).collect() }
+    }
+
+    /// The same where unlit surfaces, which are shown as they are, cover a share of each pixel: `unlit` has what of its
+    /// radiance they show, and that share, in [0, 1]. The sum of it and the exposed rest goes through the tone curve by
+    /// the share of the rest.
+    pub fn display_with_unlit(&self, unlit: &[[f32; 4]], exposure: f32, tone: ToneCurve) -> DisplayImage {
+        assert_eq!(unlit.len(), self.pixels.len(), "number of pixels");
+        let gain = exposure.exp2();
+        let show = |(pixel, [red, green, blue, share]): (&[f32; 3], &[f32; 4])| {
+            let as_it_is = [red, green, blue];
+            let exposed = std::array::from_fn(|index| gain * (pixel[index] - as_it_is[index]) + as_it_is[index]);
+            let shown = [ToneCurve::None, tone].map(|curve| curve.apply(exposed));
+            encoded(std::array::from_fn(|index| share * shown[0][index] + (1.0 - share) * shown[1][index]))
+        };
+        let pixels = self.pixels.iter().zip(unlit).map(show).collect();
+        DisplayImage { width: self.width, height: self.height, pixels }
     }
 }
 
-impl DisplayImage {
-    /// The bytes of a PNG file.
-    pub fn to_png(&self) -> Result<Vec<u8>, FormatError> {
-        encode(self.width, self.height, bytemuck::cast_slice(&self.pixels), image::ColorType::Rgb8, Format::Png)
-    }
+fn encoded(shown: [f32; 3]) -> [u8; 3] {
+    shown.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u8)
+}
 
+impl DisplayImage {
     /// Reads the bytes of a PNG file, reduced to 8 bits a channel; its alpha is ignored.
     pub fn from_png(bytes: &[u8]) -> Result<Self, image::ImageError> {
         let image = image::load_from_memory_with_format(bytes, image::ImageFormat::Png)?.into_rgb8();
         let (width, height) = image.dimensions();
         Ok(Self { width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() })
     }
-}
-
-fn encode(
-    width: u32,
-    height: u32,
-    bytes: &[u8],
-    color: image::ColorType,
-    format: Format,
-) -> Result<Vec<u8>, FormatError> {
-    let mut out = Cursor::new(Vec::new());
-    let image_format = match format {
-        Format::Png => image::ImageFormat::Png,
-        Format::Exr => image::ImageFormat::OpenExr,
-    };
-    image::write_buffer_with_format(&mut out, bytes, width, height, color, image_format)
-        .map_err(|source| FormatError::Encode { format, source })?;
-    Ok(out.into_inner())
 }
 
 #[cfg(test)]

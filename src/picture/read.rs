@@ -2,11 +2,14 @@ use std::fs::File;
 use std::io::{BufReader, Seek};
 use std::path::{Path, PathBuf};
 
-use image::codecs::{openexr::OpenExrDecoder, png::PngDecoder};
+use exr::meta::MetaData;
+use image::codecs::png::PngDecoder;
+use image::error::{DecodingError, ImageFormatHint};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageResult, Limits};
 
 use super::extent::Extent;
-use super::{DisplayImage, Format, LinearImage};
+use super::layers::{NoLayer, choose, layers};
+use super::{DisplayImage, Format, LinearImage, samples};
 
 /// The most pixels along a side of a picture that is read.
 pub const MAX_SIDE: u32 = 16384;
@@ -88,6 +91,36 @@ pub enum ReadError {
         /// Bytes of the largest piece.
         bytes: u64,
     },
+    /// A .exr has nothing that could be compared as a picture.
+    #[error("{}: has no layer of red, green and blue, or of luminance alone: render it with colours", path.display())]
+    NoColors {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A .exr has several layers, and none is the picture by its name.
+    #[error("{}: which of its layers is meant? it has {names}: pick one with --layer NAME", path.display())]
+    Undecided {
+        /// The file.
+        path: PathBuf,
+        /// Those that are there, cut where there are many.
+        names: String,
+    },
+    /// The layer that was asked for is not there.
+    #[error("{}: has no layer {wanted}: it has {names}", path.display())]
+    UnknownLayer {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        wanted: String,
+        /// Those that are there, cut where there are many.
+        names: String,
+    },
+    /// Pictures of shown values have no layers.
+    #[error("{}: a .png has no layers: leave out --layer", path.display())]
+    Layerless {
+        /// The file.
+        path: PathBuf,
+    },
     /// Some of the picture's numbers are infinite or not a number.
     #[error(
         "{}: {count} pixels are infinite or not a number, the first at {x},{y} from the top left: mend them, or render it anew",
@@ -130,46 +163,48 @@ pub enum ReadError {
 }
 
 impl Picture {
-    /// Reads a .png of 8 or 16 bits a channel or a .exr of halves or floats with channels R, G and B (of several layers
-    /// the first that has them). Alpha is left out. No memory is taken for a picture that is larger than [`MAX_SIDE`]
-    /// and [`MAX_PIXELS`] allow, and all numbers of a picture that is returned are finite.
+    /// Reads a .png of 8 or 16 bits a channel, or a .exr of halves or floats. Alpha is left out. Of the layers of a .exr
+    /// the plain channels R, G and B are taken; without these, the only layer with colours; of several the one whose
+    /// name ends in `Combined`, else in `rgba`, `rgb`, `beauty`, `C` or `Ci`, whatever the case. Luminance alone (Y) is
+    /// grey. No memory is taken for a picture that is larger than [`MAX_SIDE`] and [`MAX_PIXELS`] allow, and all numbers
+    /// of a picture that is returned are finite.
     pub fn load(path: &Path) -> Result<Self, ReadError> {
+        Self::load_layer(path, None)
+    }
+
+    /// Reads a picture as [`Self::load`] does; where a layer is named, that one of a .exr, by its whole name or by what
+    /// stands behind a dot in it. A .exr whose only channels are plain ones is taken under any name.
+    pub fn load_layer(path: &Path, layer: Option<&str>) -> Result<Self, ReadError> {
         let format = format_of(path)?;
         let open_error = |source| ReadError::Open { path: path.to_owned(), source };
         if !std::fs::metadata(path).map_err(open_error)?.is_file() {
             return Err(ReadError::NoFile { path: path.to_owned() });
         }
         let file = BufReader::new(File::open(path).map_err(open_error)?);
-        let picture = match format {
-            Format::Png => {
+        let picture = match (format, layer) {
+            (Format::Png, Some(_)) => return Err(ReadError::Layerless { path: path.to_owned() }),
+            (Format::Png, None) => {
                 let image = decode(path, format, PngDecoder::with_limits(file, Limits::default()))?.into_rgb16();
                 // Values of 8 bits come as 257 times themselves, so the quotients are the same.
                 let shown = |channel| f32::from(channel) / f32::from(u16::MAX);
                 let (width, height) = image.dimensions();
                 Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0.map(shown)).collect() }
             }
-            Format::Exr => {
-                let mut file = file;
-                check_extent(path, Extent::read(&mut file))?;
-                file.rewind().map_err(open_error)?;
-                let decoder = OpenExrDecoder::with_alpha_preference(file, Some(false));
-                let image = decode(path, format, decoder)?.into_rgb32f();
-                let (width, height) = image.dimensions();
-                Self { format, width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() }
-            }
+            (Format::Exr, layer) => load_exr(path, file, layer)?.into(),
         };
         picture.check_finite(path)?;
         Ok(picture)
     }
 
-    /// Reads two pictures, which must be of the same kind and size to be compared.
-    pub fn load_pair(first: &Path, second: &Path) -> Result<[Self; 2], ReadError> {
+    /// Reads two pictures, which must be of the same kind and size to be compared; of each the layer that is named, as
+    /// [`Self::load_layer`] does.
+    pub fn load_pair(first: &Path, second: &Path, layer: Option<&str>) -> Result<[Self; 2], ReadError> {
         match [format_of(first)?, format_of(second)?] {
             [Format::Exr, Format::Png] => Err(ReadError::Kinds { exr: first.to_owned(), png: second.to_owned() }),
             [Format::Png, Format::Exr] => Err(ReadError::Kinds { exr: second.to_owned(), png: first.to_owned() }),
             _ => Ok(()),
         }?;
-        let pair = [Self::load(first)?, Self::load(second)?];
+        let pair = [Self::load_layer(first, layer)?, Self::load_layer(second, layer)?];
         let sizes = pair.each_ref().map(|picture| [picture.width, picture.height]);
         if sizes[0] != sizes[1] {
             return Err(ReadError::Sizes { first: first.to_owned(), second: second.to_owned(), sizes });
@@ -235,10 +270,32 @@ fn decode(path: &Path, format: Format, decoder: ImageResult<impl ImageDecoder>) 
     DynamicImage::from_decoder(decoder).map_err(error)
 }
 
-/// A .exr may have data for more than it shows, and the decoder takes memory for both.
-fn check_extent(path: &Path, extent: ImageResult<Extent>) -> Result<(), ReadError> {
-    let error = |source| ReadError::Decode { path: path.to_owned(), format: Format::Exr, source };
-    let Extent { windows, piece_bytes } = extent.map_err(error)?;
+/// What a layer of a .exr shows, checked in its head before memory is taken for it.
+fn load_exr(path: &Path, mut file: BufReader<File>, layer: Option<&str>) -> Result<LinearImage, ReadError> {
+    let error = |error: exr::error::Error| {
+        let hint = ImageFormatHint::Exact(image::ImageFormat::OpenExr);
+        let source = ImageError::Decoding(DecodingError::new(hint, error));
+        ReadError::Decode { path: path.to_owned(), format: Format::Exr, source }
+    };
+    // The head alone at first: a reader already checks it against the tables behind it.
+    let head = MetaData::read_from_buffered(&mut file, false).map_err(error)?;
+    check_extent(path, Extent::of(&head.headers))?;
+    file.rewind().map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let reader = exr::block::read(file, false).map_err(error)?;
+    let path = path.to_owned();
+    let chosen = match choose(&layers(reader.headers()), layer) {
+        Ok(chosen) => chosen,
+        Err(NoLayer::Colors) => return Err(ReadError::NoColors { path }),
+        Err(NoLayer::Undecided(names)) => return Err(ReadError::Undecided { path, names }),
+        Err(NoLayer::Unknown(names)) => {
+            return Err(ReadError::UnknownLayer { path, wanted: layer.unwrap_or_default().to_owned(), names });
+        }
+    };
+    samples::read(reader, &chosen).map_err(error)
+}
+
+/// A .exr may have data for more than it shows, and a decoder takes memory for both.
+fn check_extent(path: &Path, Extent { windows, piece_bytes }: Extent) -> Result<(), ReadError> {
     windows.into_iter().try_for_each(|size| check_size(path, size))?;
     match piece_bytes {
         bytes if bytes > PIECE_BYTES_MAX => Err(ReadError::Pieces { path: path.to_owned(), bytes }),

@@ -1,12 +1,10 @@
 //! Pictures without a window: drawn in tiles, so that memory stays bounded at any size, and read back.
 
-use std::sync::{Arc, Mutex};
-use std::task::{Poll, Waker};
-
 use half::f16;
 
+use super::readback::Canvas;
 use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
-use crate::picture::{DisplayImage, LinearImage};
+use crate::picture::{DisplayImage, Exposure, LinearImage};
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 use crate::table::SheenTable;
 
@@ -83,7 +81,11 @@ impl Offscreen {
     ) -> Result<DisplayImage, RenderError> {
         let drawn = Drawn::new(scene, edits);
         let mut renderer = Self::nearest_for_display(gpu, 4, &SheenTable::embedded(), &drawn)?;
-        renderer.display(gpu, &edits.camera(scene), size, &drawn.settings).await
+        let (camera, mut settings) = (edits.camera(scene), drawn.settings);
+        if edits.exposure == Some(Exposure::Auto) {
+            settings.exposure = renderer.meter(gpu, &camera, size, &settings).await?.unwrap_or(0.0);
+        }
+        renderer.display(gpu, &camera, size, &settings).await
     }
 
     /// How radiance is kept on the way: samples a pixel, and bits of each number.
@@ -94,6 +96,19 @@ impl Offscreen {
     /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
         self.renderer.update(gpu, drawn)
+    }
+
+    /// The exposure value that metering takes for a picture of this size ([`metered`](crate::picture::metered)): of what
+    /// surfaces scatter, so that lamps in sight do not count; where they scatter nothing, of what they emit. None where
+    /// nothing is lit. Unlit surfaces do not count. Reads the settings as `display` does, but for exposure and tone curve.
+    pub async fn meter(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+    ) -> Result<Option<f32>, RenderError> {
+        self.renderer.meter(gpu, camera, size, settings).await
     }
 
     /// The picture as it is shown. Of the settings, `lights_visible` took effect when this was made or updated; the
@@ -174,69 +189,16 @@ impl Offscreen {
         settings: &Settings,
         showing: Showing,
     ) -> Result<Vec<u8>, RenderError> {
-        let extent = wgpu::Extent3d { width: tile.width, height: tile.height, depth_or_array_layers: 1 };
-        let output = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size: extent,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: self.format.output,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
-        let texel_size = self.format.output.block_copy_size(None).unwrap_or(16);
-        let stride = (tile.width * texel_size).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: u64::from(stride) * u64::from(tile.height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let size = [tile.width, tile.height];
+        let canvas = Canvas::new(gpu, size, self.format.output);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-        let output_view = output.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.draw(gpu, &mut encoder, [tile.width, tile.height], (view, settings, showing));
-        self.renderer.show(gpu, &mut encoder, (&output_view, [0, 0]), showing);
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
-        encoder.copy_texture_to_buffer(
-            output.as_image_copy(),
-            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-            extent,
-        );
-        gpu.queue.submit([encoder.finish()]);
-        map(&buffer).await?;
-        let range = buffer.get_mapped_range(..).map_err(|error| RenderError::Readback(error.to_string()))?;
-        Ok(range.to_vec())
+        self.renderer.draw(gpu, &mut encoder, size, (view, settings, showing));
+        self.renderer.show(gpu, &mut encoder, (&canvas.view, [0, 0]), showing);
+        canvas.read(gpu, encoder).await
     }
 }
 
 fn cannot_draw(what: &'static str, samples: u32) -> RenderError {
     let instead = if samples > 1 { "--msaa 1 or another --adapter" } else { "another --adapter" };
     RenderError::Multisampling { what, samples, instead }
-}
-
-/// Resolves when the buffer can be read. The device has to be polled meanwhile: a browser does so by itself, elsewhere
-/// `Gpu::block_on` does.
-async fn map(buffer: &wgpu::Buffer) -> Result<(), RenderError> {
-    type Mapped = (Option<Result<(), wgpu::BufferAsyncError>>, Option<Waker>);
-    let shared = Arc::new(Mutex::new(Mapped::default()));
-    let writer = Arc::clone(&shared);
-    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-        let mut mapped = writer.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        mapped.0 = Some(result);
-        if let Some(waker) = mapped.1.take() {
-            waker.wake();
-        }
-    });
-    let result = std::future::poll_fn(|context| {
-        let mut mapped = shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        match mapped.0.take() {
-            Some(result) => Poll::Ready(result),
-            None => {
-                mapped.1 = Some(context.waker().clone());
-                Poll::Pending
-            }
-        }
-    });
-    result.await.map_err(|error| RenderError::Readback(error.to_string()))
 }

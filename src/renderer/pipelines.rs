@@ -40,7 +40,7 @@ impl Pipelines {
             false => ["surfaces_vertex", "surfaces_fragment"],
         };
         let layouts = vertex_layouts(attributes);
-        let blend = look.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let blend = look.blend.then_some(if look.unlit { OVER_UNLIT } else { OVER });
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surfaces"),
             layout: Some(&self.layout),
@@ -78,6 +78,14 @@ impl Pipelines {
         })
     }
 }
+
+/// What lies before the rest: radiance, and the share of the pixel that is lit.
+const OVER: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+/// The same where nothing of it is lit.
+const OVER_UNLIT: wgpu::BlendState = wgpu::BlendState {
+    alpha: wgpu::BlendComponent { src_factor: wgpu::BlendFactor::Zero, ..wgpu::BlendComponent::OVER },
+    ..OVER
+};
 
 /// One buffer for each attribute, in the order of the shader's locations. For an attribute that the mesh lacks, every
 /// vertex reads the same constant.

@@ -12,7 +12,7 @@ pub struct Settings {
     /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
     pub ambient: Vec3,
     /// Exposure value: radiance is multiplied by `2^exposure` on its way into a .png. Linear pictures do not depend on
-    /// it.
+    /// it. Where edits want it metered, 0 until it is.
     pub exposure: f32,
     /// The tone curve of a .png.
     pub tone: ToneCurve,

@@ -22,7 +22,7 @@ impl Change {
         let drawn = |edits: &Edits| Settings { tone: Default::default(), ..edits.settings() };
         if things(before) != things(after) || before.materials != after.materials || before.lights != after.lights {
             Self::Scene
-        } else if before.camera != after.camera || drawn(before) != drawn(after) {
+        } else if before.camera != after.camera || before.exposure != after.exposure || drawn(before) != drawn(after) {
             Self::Drawn
         } else if before.tone != after.tone {
             Self::Shown
@@ -35,7 +35,7 @@ impl Change {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::ToneCurve;
+    use crate::picture::{Exposure, ToneCurve};
     use crate::scene::{CameraEdit, LightEdits, Lobes, MaterialEdits};
     use glam::Vec3;
 
@@ -48,7 +48,8 @@ mod tests {
             (Change::None, edits()),
             (Change::Shown, Edits { tone: Some(ToneCurve::Agx), ..edits() }),
             (Change::Drawn, Edits { camera: Some(CameraEdit::Loaded(1)), ..edits() }),
-            (Change::Drawn, Edits { exposure: Some(1.0), ..edits() }),
+            (Change::Drawn, Edits { exposure: Some(1.0.into()), ..edits() }),
+            (Change::Drawn, Edits { exposure: Some(Exposure::Auto), ..edits() }),
             (Change::Drawn, Edits { ambient: Some(Vec3::ONE), ..edits() }),
             (Change::Drawn, Edits { lobes: Some(Lobes::NONE), ..edits() }),
             (Change::Scene, Edits { lights_visible: Some(false), ..edits() }),

@@ -9,7 +9,7 @@ use super::change::Change;
 use super::screen::Screen;
 use super::state::State;
 use super::{ViewerError, native};
-use crate::picture::DisplayImage;
+use crate::picture::{Blank, DisplayImage};
 use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
 use crate::table::SheenTable;
 
@@ -53,6 +53,8 @@ pub(super) struct Frame {
     freed: Vec<TextureId>,
     /// `Renderer::made` when the scene was drawn last.
     made: usize,
+    /// Whether the first picture has been looked at.
+    is_checked: bool,
     /// Where the picture was drawn last.
     place: Rect,
 }
@@ -83,7 +85,7 @@ impl Frame {
         let renderer = Renderer::new(&gpu, format, table, &state.drawn())?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
         let place = Rect::full([0, 0]);
-        Ok(Self { surface, configuration, gpu, renderer, egui, freed: Vec::new(), made: 0, place })
+        Ok(Self { surface, configuration, gpu, renderer, egui, freed: Vec::new(), made: 0, is_checked: false, place })
     }
 
     pub fn max_texture_side(&self) -> usize {
@@ -110,7 +112,12 @@ impl Frame {
     }
 
     /// Draws what has changed and presents it.
-    pub fn draw(&mut self, context: &egui::Context, screen: &Screen, state: &State) -> Result<Presented, ViewerError> {
+    pub fn draw(
+        &mut self,
+        context: &egui::Context,
+        screen: &Screen,
+        state: &mut State,
+    ) -> Result<Presented, ViewerError> {
         let surface_texture = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
@@ -140,7 +147,7 @@ impl Frame {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         output: &TextureView,
-        state: &State,
+        state: &mut State,
         screen: &Screen,
     ) -> Result<Redraw, ViewerError> {
         let place = self.place_in_pixels(screen.picture, screen.pixels_per_point);
@@ -148,7 +155,8 @@ impl Frame {
             self.renderer.update(&self.gpu, &state.drawn())?;
         }
         let size = [place.width, place.height];
-        let settings = state.edits.settings();
+        self.expose(state, size)?;
+        let settings = state.settings();
         let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
         let mut drawn = Redraw::Nothing;
         if screen.change >= Change::Drawn || size != [self.place.width, self.place.height] {
@@ -164,6 +172,29 @@ impl Frame {
         }
         self.made = made;
         Ok(drawn)
+    }
+
+    /// Meters where that is asked for; and looks, once, whether the first picture shows anything.
+    fn expose(&mut self, state: &mut State, size: [u32; 2]) -> Result<(), ViewerError> {
+        let camera = state.camera();
+        if state.needs_metering() {
+            let settings = state.settings();
+            let metered = self.renderer.meter(&self.gpu, &camera, size, &settings);
+            state.metered = Some(native::block_on_device(&self.gpu, metered)?.unwrap_or(0.0));
+        }
+        if std::mem::replace(&mut self.is_checked, true) {
+            return Ok(());
+        }
+        let settings = state.settings();
+        let seen = self.renderer.glance(&self.gpu, &camera, size, &settings);
+        let seen = native::block_on_device(&self.gpu, seen)?.display(0.0, settings.tone);
+        if let Some(blank) = Blank::of(&seen) {
+            let metered = self.renderer.meter(&self.gpu, &camera, size, &settings);
+            let advice = blank.advice(settings.exposure, native::block_on_device(&self.gpu, metered)?);
+            state.message = advice.clone().unwrap_or_default();
+            state.notices.extend(advice);
+        }
+        Ok(())
     }
 
     fn draw_egui(
@@ -205,16 +236,16 @@ impl Frame {
 
     /// Saves the picture as it is shown, without the panel, into the current folder; says where, or why not.
     pub fn screenshot(&self, state: &State, table: &SheenTable) -> String {
-        self.picture(state, table).and_then(|picture| native::save(&picture)).unwrap_or_else(|error| error)
+        self.picture(state, table).and_then(|picture| native::save(&picture, state)).unwrap_or_else(|error| error)
     }
 
     fn picture(&self, state: &State, table: &SheenTable) -> Result<DisplayImage, String> {
         let size = [self.place.width, self.place.height];
-        let drawn = state.drawn();
+        let (drawn, settings) = (state.drawn(), state.settings());
         let renderer = Offscreen::nearest_for_display(&self.gpu, SAMPLES, table, &drawn);
         let mut renderer = renderer.map_err(|error| error.to_string())?;
         let camera = state.camera();
-        let picture = renderer.display(&self.gpu, &camera, size, &drawn.settings);
+        let picture = renderer.display(&self.gpu, &camera, size, &settings);
         native::block_on_device(&self.gpu, picture).map_err(|error| error.to_string())
     }
 }

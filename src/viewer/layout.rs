@@ -32,7 +32,11 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     // egui may make the panel a little narrower than it is meant to be, with its content: the picture stays where it is.
     let picture = area.with_max_x((area.max.x - panel::WIDTH).max(area.min.x));
     navigate(ui, picture, state);
-    Layout { picture, change: Change::between(&before, &state.edits), request }
+    let mut change = Change::between(&before, &state.edits);
+    if state.needs_metering() {
+        change = change.max(Change::Drawn);
+    }
+    Layout { picture, change, request }
 }
 
 fn navigate(ui: &mut Ui, picture: Rect, state: &mut State) {

@@ -41,9 +41,15 @@ pub(super) fn finish(gpu: &Gpu) {
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
 }
 
-/// Saves a picture in the current folder under the first free name; says where.
-pub(super) fn save(picture: &DisplayImage) -> Result<String, String> {
-    save_as("png", &picture.to_png().map_err(|error| error.to_string())?)
+/// Saves a picture of what the state shows in the current folder under the first free name; says where.
+pub(super) fn save(picture: &DisplayImage, state: &State) -> Result<String, String> {
+    let comment = format!(
+        "velour view of {} at {} EV, with this state:\n{}",
+        one_line(&state.name),
+        state.settings().exposure,
+        state.edits.to_text(&state.scene)
+    );
+    save_as("png", &picture.to_png_with_comment(&comment).map_err(|error| error.to_string())?)
 }
 
 /// Saves what the user has changed as a text in the current folder; says where, or why not.

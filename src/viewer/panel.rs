@@ -5,7 +5,7 @@ use egui::Ui;
 use super::state::State;
 use super::widgets::{Glow, hue_button, slider};
 use super::{lights, material, notices};
-use crate::picture::ToneCurve;
+use crate::picture::{Exposure, ToneCurve};
 use crate::scene::Edits;
 
 /// The panel's width in points, enough for the longest row.
@@ -31,10 +31,10 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
-        notices::show(ui, &state.scene.notices);
+        notices::show(ui, &state.notices);
         ui.separator();
         material::show(ui, state);
-        picture(ui, &mut state.edits);
+        picture(ui, state);
         lights::show(ui, state);
     });
     request
@@ -65,15 +65,13 @@ fn actions(ui: &mut Ui, state: &mut State) -> Option<Request> {
     request
 }
 
-fn picture(ui: &mut Ui, edits: &mut Edits) {
+fn picture(ui: &mut Ui, state: &mut State) {
     ui.separator();
     ui.strong("Picture");
+    exposure(ui, state);
+    let edits = &mut state.edits;
     let before = edits.settings();
     let mut settings = before;
-    ui.horizontal(|ui| {
-        ui.label("exposure");
-        slider(ui, &mut settings.exposure, -8.0..=8.0, |slider| slider.suffix(" EV"));
-    });
     ui.horizontal(|ui| {
         ui.label("tone curve");
         ui.selectable_value(&mut settings.tone, ToneCurve::Neutral, "neutral");
@@ -90,9 +88,6 @@ fn picture(ui: &mut Ui, edits: &mut Edits) {
     });
     ui.checkbox(&mut settings.lights_visible, "lights visible");
     // What is not touched is left unset.
-    if settings.exposure != before.exposure {
-        edits.exposure = Some(settings.exposure);
-    }
     if settings.tone != before.tone {
         edits.tone = Some(settings.tone);
     }
@@ -101,6 +96,36 @@ fn picture(ui: &mut Ui, edits: &mut Edits) {
     }
     if settings.lights_visible != before.lights_visible {
         edits.lights_visible = Some(settings.lights_visible);
+    }
+}
+
+/// A number, or metered: at the start, when that is switched on, and when it is asked for again, so that neither turning
+/// nor a brighter lamp changes it behind the user's back.
+fn exposure(ui: &mut Ui, state: &mut State) {
+    let (before, edited) = (state.settings().exposure, state.edits.exposure);
+    let mut stops = before;
+    ui.horizontal(|ui| {
+        ui.label("exposure");
+        slider(ui, &mut stops, -16.0..=16.0, |slider| slider.suffix(" EV"));
+    });
+    if stops != before {
+        state.edits.exposure = Some(stops.into());
+    }
+    ui.horizontal(|ui| {
+        let mut is_auto = state.edits.exposure == Some(Exposure::Auto);
+        let about = "Meters what is seen, the middle most; it stays as the view turns and lights change";
+        if ui.checkbox(&mut is_auto, "auto exposure").on_hover_text(about).changed() {
+            // Switched off, what it took stays.
+            state.edits.exposure = Some(if is_auto { Exposure::Auto } else { before.into() });
+            state.metered = None;
+        }
+        if is_auto && ui.button("meter again").clicked() {
+            state.metered = None;
+        }
+    });
+    if state.edits.exposure != edited {
+        // What was said of the exposure before is no more so.
+        state.message.clear();
     }
 }
 

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 
-use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene};
+use crate::picture::Exposure;
+use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
 /// The scene as it was loaded, and what the user changes in it.
 pub struct State {
@@ -16,6 +17,10 @@ pub struct State {
     pub material: usize,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
+    /// What metering took for an exposure that is automatic; none before it has, and where it is to do so anew.
+    pub metered: Option<f32>,
+    /// What there is to say of the scene: by the loader, and of its first picture.
+    pub notices: Vec<String>,
     /// What became of the last command: a screenshot's name, or why there is none.
     pub message: String,
     /// The middle of what is lit, metres: a camera of the scene turns about it.
@@ -36,6 +41,8 @@ impl State {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
             frame_time: None,
+            metered: None,
+            notices: scene.notices.clone(),
             message: String::new(),
             center: scene.subject().center(),
             step: step(scene.bounds().diagonal()),
@@ -47,6 +54,18 @@ impl State {
     /// The scene as it is drawn.
     pub fn drawn(&self) -> Drawn<'_> {
         Drawn::new(&self.scene, &self.edits)
+    }
+
+    /// Whether the exposure is to be metered before the picture is drawn.
+    pub fn needs_metering(&self) -> bool {
+        self.edits.exposure == Some(Exposure::Auto) && self.metered.is_none()
+    }
+
+    /// What the picture is drawn with: its exposure is the metered one where it is automatic.
+    pub fn settings(&self) -> Settings {
+        let settings = self.edits.settings();
+        let metered = self.metered.filter(|_| self.edits.exposure == Some(Exposure::Auto));
+        Settings { exposure: metered.unwrap_or(settings.exposure), ..settings }
     }
 
     /// The view: a camera of the scene as it is, until the user turns it.
@@ -81,6 +100,23 @@ fn step(size: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_automatic_exposure_is_the_metered_one_until_another_is_asked_for() {
+        let edits = |exposure| Edits { exposure, ..Edits::default() };
+        let mut state = State::new("drape", crate::scene::assets::DRAPE.load().unwrap(), edits(Some(Exposure::Auto)));
+        assert!(state.needs_metering() && state.settings().exposure == 0.0);
+        state.metered = Some(-9.37);
+        assert!(!state.needs_metering() && state.settings().exposure == -9.37);
+        // Neither a turn nor a lamp meters anew.
+        state.edits.ambient = Some(Vec3::ONE);
+        state.edits.camera = Some(CameraEdit::Orbit(state.orbit()));
+        assert!(!state.needs_metering());
+        for (exposure, expected) in [(None, 0.0), (Some(1.5.into()), 1.5)] {
+            state.edits = edits(exposure);
+            assert!(!state.needs_metering() && state.settings().exposure == expected);
+        }
+    }
 
     #[test]
     fn steps_follow_the_scenes_size() {

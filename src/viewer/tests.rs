@@ -355,7 +355,8 @@ fn boxes_hold_what_is_typed_key_by_key() {
             };
             window.type_into(place, text);
             let own = window.state.edits.of_material(0);
-            let found = [own.alpha, own.metallic, window.state.edits.exposure].into_iter().flatten().last();
+            let exposure = window.state.edits.exposure.map(|_| window.state.settings().exposure);
+            let found = [own.alpha, own.metallic, exposure].into_iter().flatten().last();
             assert_eq!(found, text.parse().ok(), "{row}");
         }
     }

@@ -154,7 +154,13 @@ impl App {
             // Minimised: what has changed is drawn when the window comes back.
             return Ok(());
         }
-        match open.frame.draw(open.egui.egui_ctx(), &open.screen, &self.state)? {
+        let (metered, notices) = (self.state.metered, self.state.notices.len());
+        let presented = open.frame.draw(open.egui.egui_ctx(), &open.screen, &mut self.state)?;
+        if (metered, notices) != (self.state.metered, self.state.notices.len()) {
+            // The panel shows both.
+            open.wake(native::now());
+        }
+        match presented {
             Presented::Yes(drawn) => {
                 open.screen.presented();
                 if drawn == Redraw::Again {

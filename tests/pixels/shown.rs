@@ -37,7 +37,7 @@ fn what_is_shown_is_the_radiance_through_exposure_tone_and_srgb() {
     let radiance = linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE);
     for tone in [ToneCurve::None, ToneCurve::Neutral, ToneCurve::Agx] {
         for exposure in [-2.0, 0.0, 1.3, 6.0] {
-            let edits = Edits { exposure: Some(exposure), ..Edits::default() };
+            let edits = Edits { exposure: Some(exposure.into()), ..Edits::default() };
             let picture = shown(&scene, 1, &edits, tone, SIZE);
             // On its way radiance is kept in 11 bits: an error of a twentieth of a step, which may tip the rounding to
             // 8 bits.
@@ -54,7 +54,7 @@ fn exposure_reaches_radiance_of_any_unit() {
         let mut stage = stage();
         stage.things[1].material = glow([radiance; 3]);
         let scene = stage.scene();
-        let edits = Edits { exposure: Some(exposure), ..Edits::default() };
+        let edits = Edits { exposure: Some(exposure.into()), ..Edits::default() };
         let expected = linear(&scene, &SheenTable::embedded(), &Edits::default(), SIZE);
         let expected = expected.display(exposure, ToneCurve::None);
         let picture = shown(&scene, 1, &edits, ToneCurve::None, SIZE);

@@ -2,14 +2,15 @@
 
 use std::fs;
 
+use velour::picture::Picture;
 use velour::scene::{CameraEdit, Edits, LightEdits, MaterialEdits, Orbit, gltf};
 
 use super::run::Bench;
 
-/// A picture of the scene with these flags, as bytes.
-fn picture(bench: &Bench, command: &str, flags: &str) -> Vec<u8> {
+/// A picture of the scene with these flags; its file also says which flags they were.
+fn picture(bench: &Bench, command: &str, flags: &str) -> Picture {
     bench.run(&format!("{command} scene.glb -o out.exr --size 64x40 {flags}"));
-    fs::read(bench.path("out.exr")).unwrap()
+    Picture::load(&bench.path("out.exr")).unwrap()
 }
 
 #[test]
@@ -67,8 +68,8 @@ fn what_the_viewer_saves_is_what_it_showed() {
         let mut renderer = Offscreen::for_linear(gpu, 4, &SheenTable::embedded(), &drawn).unwrap();
         gpu.block_on(renderer.linear(gpu, &edits.camera(&scene), [64, 40], &drawn.settings)).unwrap()
     };
-    assert_eq!(picture(&bench, "render", "--state state.toml"), shown.to_exr().unwrap());
-    assert_ne!(picture(&bench, "render", "--state state.toml --camera 0"), shown.to_exr().unwrap());
+    assert_eq!(picture(&bench, "render", "--state state.toml"), shown.clone().into());
+    assert_ne!(picture(&bench, "render", "--state state.toml --camera 0"), shown.into());
 }
 
 #[test]

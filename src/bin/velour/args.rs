@@ -62,7 +62,7 @@ pub enum Command {
     Fit(Fit),
     /// Compares picture A with the reference B: FLIP, relative mean absolute error, bias, largest error
     ///
-    /// Two .exr are compared in linear radiance, two .png in shown values from 0 to 1, alpha left out; up to 16384
+    /// Two .exr are compared in linear radiance (of several layers the one that is the picture, see --layer), two .png in shown values from 0 to 1, alpha left out; up to 16384
     /// pixels a side and 33554432 in all. The relative mean absolute error is mean |A - B| / mean |B|, over pixels and
     /// channels; the mean error is mean (A - B).
     ///

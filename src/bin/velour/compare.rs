@@ -7,6 +7,7 @@ use serde_json::json;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::{Differences, FlipMap, Format, Picture};
 
+use crate::comment::command;
 use crate::console::say;
 use crate::failure::Failure;
 use crate::output::is_same_file;
@@ -19,6 +20,11 @@ pub struct Compare {
     pub a: PathBuf,
     /// The reference, of the same kind and size
     pub b: PathBuf,
+    /// The layer of a .exr of several: its name, or what stands behind a dot in it; of both pictures, but for a .exr that
+    /// has plain R, G and B alone [default: plain R, G, B; else the only layer with colours; else the one whose name
+    /// ends in Combined, or in rgba, rgb, beauty, C, Ci]
+    #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new(), allow_hyphen_values = true)]
+    pub layer: Option<String>,
     /// Writes FLIP of each pixel as colours: black is 0, pale yellow 1 [default: none is written]
     #[arg(long, value_name = "OUT.png")]
     pub heatmap: Option<PathBuf>,
@@ -42,11 +48,11 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 pub fn run(arguments: &Compare) -> Result<(), Failure> {
     let heatmap = arguments.heatmap.as_deref();
     heatmap.map_or(Ok(()), |path| check_heatmap(path, [&arguments.a, &arguments.b]))?;
-    let [a, b] = Picture::load_pair(&arguments.a, &arguments.b).map_err(Failure::input)?;
+    let [a, b] = Picture::load_pair(&arguments.a, &arguments.b, arguments.layer.as_deref()).map_err(Failure::input)?;
     let differences = Differences::between(&a, &b);
     let flip = with_progress("flip", |step| FlipMap::between(&a, &b, step));
     if let Some(path) = heatmap {
-        let bytes = flip.heat_map().to_png().map_err(Failure::input)?;
+        let bytes = flip.heat_map().to_png_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(path, &bytes).map_err(Failure::input)?;
     }
     if arguments.json {

@@ -11,6 +11,7 @@ use velour::figures::{self, Figure, plates};
 use velour::file::write_atomically;
 use velour::table::SheenTable;
 
+use crate::comment::command;
 use crate::console::say;
 use crate::failure::Failure;
 use crate::interrupt::{ENDING, listen};
@@ -55,7 +56,7 @@ pub fn run(arguments: &Figures) -> Result<(), Failure> {
             plates::PlateError::Interrupted => Failure::check(error),
             _ => Failure::input(error),
         });
-        let bytes = image?.to_png().map_err(Failure::input)?;
+        let bytes = image?.to_png_with_comment(&command()).map_err(Failure::input)?;
         // Settings come last: a picture without them is made again.
         write_atomically(&picture, &bytes).map_err(Failure::input)?;
         write_atomically(&settings, wanted.as_bytes()).map_err(Failure::input)?;

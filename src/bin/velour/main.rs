@@ -5,8 +5,10 @@
 
 mod args;
 mod assignment;
+mod comment;
 mod compare;
 mod console;
+mod exposed;
 mod failure;
 mod figures;
 mod fit;

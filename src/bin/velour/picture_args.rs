@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use glam::Vec3;
-use velour::picture::ToneCurve;
+use velour::picture::{Exposure, ToneCurve};
 use velour::scene::{Edits, Layering, Lobes, MaterialEdits, RoughnessMap, SheenModel, Value};
 
 use crate::assignment::{Assignment, assignment};
@@ -65,9 +65,10 @@ pub struct PictureArgs {
     /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0 [default: 0,0,0]
     #[arg(long, value_name = "R,G,B", value_parser = read(Value::radiance), allow_hyphen_values = true)]
     pub ambient: Option<Vec3>,
-    /// Exposure value of a .png: radiance is multiplied by 2^EV [default: 0]
-    #[arg(long, value_name = "EV", value_parser = read(Value::exposure), allow_negative_numbers = true)]
-    pub exposure: Option<f32>,
+    /// Exposure value of a .png: radiance is multiplied by 2^EV; auto meters what is seen, the middle most, and says what
+    /// it took [default: 0]
+    #[arg(long, value_name = "EV|auto", value_parser = read(Value::exposure), allow_negative_numbers = true)]
+    pub exposure: Option<Exposure>,
     /// Tone curve of a .png: none clamps, neutral is Khronos PBR Neutral, agx is Blender's AgX [default: neutral]
     #[arg(long, value_name = "none|neutral|agx", value_parser = read(Value::tone))]
     pub tonemap: Option<ToneCurve>,

@@ -6,11 +6,13 @@ use std::sync::atomic::Ordering;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use velour::file::{check_writable, write_atomically};
-use velour::picture::{Format, FormatError};
+use velour::picture::{DisplayImage, Format, ToneCurve};
 use velour::reference::{self, Effort, Options, Picture, ReferenceError};
-use velour::scene::Settings;
+use velour::scene::Camera;
 
+use crate::comment::command;
 use crate::console::{complain, say};
+use crate::exposed::{Exposed, Exposes};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::interrupt::{ENDING, listen};
@@ -88,12 +90,12 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
         check_apart(errors, &inputs.scene, &arguments.picture.files())?;
     }
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
-    let (picture, counts) = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
+    let rendered = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
     if let Some(errors) = &arguments.errors {
-        let bytes = picture.errors.to_exr().map_err(Failure::input)?;
+        let bytes = rendered.picture.errors.to_exr_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(errors, &bytes).map_err(Failure::input)?;
     }
-    finish(&arguments.picture, &inputs, &picture, counts, &mut timing)
+    finish(&arguments.picture, &inputs, &rendered, &mut timing)
 }
 
 /// Errors are written as numbers, and over no other file.
@@ -127,18 +129,25 @@ pub fn failure(error: ReferenceError) -> Failure {
     }
 }
 
+/// A picture that has been rendered.
+pub struct Rendered {
+    picture: Picture,
+    /// What it shows, of a .png.
+    exposed: Option<Exposed>,
+    counts: Counts,
+}
+
 pub fn render(
     inputs: &Inputs,
     arguments: &PictureArgs,
     options: Options,
     effort: Effort,
     timing: &mut Timing,
-) -> Result<(Picture, Counts), Failure> {
+) -> Result<Rendered, Failure> {
     listen();
-    let drawn = inputs.drawn();
+    let (drawn, camera) = (inputs.drawn(), inputs.camera());
     let renderer = timing.measure("build", || reference::Reference::new(&drawn, &inputs.table, options));
-    let renderer = renderer.map_err(failure)?;
-    let camera = inputs.camera();
+    let mut renderer = renderer.map_err(failure)?;
     let picture = timing.measure("render", || {
         with_progress("reference", |step| {
             renderer.render(&camera, arguments.size, effort, |done, all| {
@@ -147,16 +156,35 @@ pub fn render(
             })
         })
     });
+    let picture = picture.map_err(failure)?;
     let counts = Counts { rays: renderer.rays(), triangles: renderer.triangles(), wanted: effort.samples };
-    Ok((picture.map_err(failure)?, counts))
+    let exposed = match inputs.format {
+        Format::Png => {
+            let (picture, size, tone) = (&picture, arguments.size, drawn.settings.tone);
+            let mut shows = Shows { renderer: &mut renderer, camera: &camera, size, picture, tone };
+            Some(timing.measure("expose", || Exposed::new(&inputs.edits, &mut shows))?)
+        }
+        Format::Exr => None,
+    };
+    Ok(Rendered { picture, exposed, counts })
 }
 
-/// The picture's file, in memory.
-fn encoded(picture: &Picture, inputs: &Inputs) -> Result<Vec<u8>, FormatError> {
-    let Settings { exposure, tone, .. } = inputs.edits.settings();
-    match inputs.format {
-        Format::Png => picture.radiance.display(exposure, tone).to_png(),
-        Format::Exr => picture.radiance.to_exr(),
+/// What shows a picture that has been rendered.
+pub struct Shows<'a, 'scene> {
+    pub renderer: &'a mut reference::Reference<'scene>,
+    pub camera: &'a Camera,
+    pub size: [u32; 2],
+    pub picture: &'a Picture,
+    pub tone: ToneCurve,
+}
+
+impl Exposes for Shows<'_, '_> {
+    fn meter(&mut self) -> Result<Option<f32>, Failure> {
+        self.renderer.meter(self.camera, self.size, |_, _| !ENDING.load(Ordering::Relaxed)).map_err(failure)
+    }
+
+    fn display(&mut self, exposure: f32) -> Result<DisplayImage, Failure> {
+        Ok(self.picture.display(exposure, self.tone))
     }
 }
 
@@ -164,22 +192,27 @@ fn encoded(picture: &Picture, inputs: &Inputs) -> Result<Vec<u8>, FormatError> {
 pub fn finish(
     arguments: &PictureArgs,
     inputs: &Inputs,
-    picture: &Picture,
-    counts: Counts,
+    rendered: &Rendered,
     timing: &mut Timing,
 ) -> Result<(), Failure> {
-    let bytes = timing.measure("encode", || encoded(picture, inputs));
+    let Rendered { picture, exposed, counts } = rendered;
+    let bytes = timing.measure("encode", || match exposed {
+        Some(exposed) => exposed.picture.to_png_with_comment(&command()),
+        None => picture.radiance.to_exr_with_comment(&command()),
+    });
     let bytes = bytes.map_err(Failure::input)?;
     timing.measure("write", || write_atomically(&arguments.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();
     if picture.samples < counts.wanted {
         complain(format!("interrupted: the picture has {} of {} samples a pixel", picture.samples, counts.wanted));
     }
-    report(arguments, inputs, picture, &counts, timing);
+    exposed.iter().for_each(Exposed::warn);
+    report(arguments, inputs, rendered, timing);
     Ok(())
 }
 
-fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &Counts, timing: &Timing) {
+fn report(arguments: &PictureArgs, inputs: &Inputs, rendered: &Rendered, timing: &Timing) {
+    let Rendered { picture, exposed, counts } = rendered;
     let output = arguments.output.display();
     let [width, height] = arguments.size;
     let (error, worst) = (picture.relative_error(), picture.error_quantile(0.99));
@@ -190,6 +223,8 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
             "size": arguments.size,
             // No device has drawn it.
             "adapter": null,
+            // Linear radiance has none.
+            "exposure": exposed.as_ref().map(|exposed| exposed.exposure),
             "samples": picture.samples,
             "samples_wanted": counts.wanted,
             "batches": picture.batches,
@@ -214,4 +249,5 @@ fn report(arguments: &PictureArgs, inputs: &Inputs, picture: &Picture, counts: &
         percent(error),
         percent(worst),
     ));
+    exposed.iter().for_each(Exposed::report);
 }

@@ -3,12 +3,14 @@
 use clap::Args;
 use serde_json::json;
 use velour::file::write_atomically;
-use velour::picture::Format;
+use velour::picture::{DisplayImage, Format};
 use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Offscreen, RadianceFormat, RenderError};
-use velour::scene::{Edits, Layering, Scene};
+use velour::scene::{Camera, Edits, Layering, Scene, Settings};
 
+use crate::comment::command;
 use crate::console::{complain, say};
+use crate::exposed::{Exposed, Exposes};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::picture_args::PictureArgs;
@@ -48,11 +50,12 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
         }
         gpu => gpu.map_err(Failure::device)?,
     };
-    let (bytes, radiance) = draw(&gpu, arguments, &inputs, &mut timing)?;
-    timing.measure("write", || write_atomically(&arguments.picture.output, &bytes)).map_err(Failure::input)?;
+    let drawing = draw(&gpu, arguments, &inputs, &mut timing)?;
+    timing.measure("write", || write_atomically(&arguments.picture.output, &drawing.bytes)).map_err(Failure::input)?;
     inputs.warn();
-    shortfall(radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
-    report(arguments, &inputs.scene, (&gpu, radiance), &timing);
+    shortfall(drawing.radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
+    drawing.exposed.iter().for_each(Exposed::warn);
+    report(arguments, &inputs.scene, (&gpu, &drawing), &timing);
     Ok(())
 }
 
@@ -80,13 +83,17 @@ pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The picture's file, in memory, and how its radiance was kept on the way.
-fn draw(
-    gpu: &Gpu,
-    arguments: &Render,
-    inputs: &Inputs,
-    timing: &mut Timing,
-) -> Result<(Vec<u8>, RadianceFormat), Failure> {
+/// A picture that has been drawn.
+struct Drawing {
+    /// Its file, in memory.
+    bytes: Vec<u8>,
+    /// How its radiance was kept on the way.
+    radiance: RadianceFormat,
+    /// What it shows, of a .png.
+    exposed: Option<Exposed>,
+}
+
+fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> Result<Drawing, Failure> {
     let Inputs { format, table, .. } = inputs;
     let (drawn, camera) = (inputs.drawn(), inputs.camera());
     let (samples, size, settings) = (arguments.msaa, arguments.picture.size, &drawn.settings);
@@ -97,17 +104,42 @@ fn draw(
     let renderer = timing.measure("pipelines", || prepare(gpu, samples, table, &drawn));
     let mut renderer = renderer.map_err(failure)?;
     let radiance = renderer.radiance();
-    let encoded = match format {
+    let (bytes, exposed) = match format {
         Format::Png => {
-            let picture = timing.measure("frame", || gpu.block_on(renderer.display(gpu, &camera, size, settings)));
-            timing.measure("encode", || Ok(picture?.to_png()))
+            let mut shows = Shows { gpu, renderer: &mut renderer, camera: &camera, size, settings, timing };
+            let exposed = Exposed::new(&inputs.edits, &mut shows)?;
+            (timing.measure("encode", || exposed.picture.to_png_with_comment(&command())), Some(exposed))
         }
         Format::Exr => {
             let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, &camera, size, settings)));
-            timing.measure("encode", || Ok(picture?.to_exr()))
+            let picture = picture.map_err(failure)?;
+            (timing.measure("encode", || picture.to_exr_with_comment(&command())), None)
         }
     };
-    Ok((encoded.map_err(failure)?.map_err(Failure::input)?, radiance))
+    Ok(Drawing { bytes: bytes.map_err(Failure::input)?, radiance, exposed })
+}
+
+/// What draws a picture that is shown.
+pub struct Shows<'a> {
+    pub gpu: &'a Gpu,
+    pub renderer: &'a mut Offscreen,
+    pub camera: &'a Camera,
+    pub size: [u32; 2],
+    pub settings: &'a Settings,
+    pub timing: &'a mut Timing,
+}
+
+impl Exposes for Shows<'_> {
+    fn meter(&mut self) -> Result<Option<f32>, Failure> {
+        let Self { gpu, renderer, camera, size, settings, timing } = self;
+        timing.measure("meter", || gpu.block_on(renderer.meter(gpu, camera, *size, settings))).map_err(failure)
+    }
+
+    fn display(&mut self, exposure: f32) -> Result<DisplayImage, Failure> {
+        let Self { gpu, renderer, camera, size, settings, timing } = self;
+        let settings = Settings { exposure, ..**settings };
+        timing.measure("frame", || gpu.block_on(renderer.display(gpu, camera, *size, &settings))).map_err(failure)
+    }
 }
 
 /// A lost device is not bad input.
@@ -118,21 +150,24 @@ pub fn failure(error: RenderError) -> Failure {
     }
 }
 
-fn report(arguments: &Render, scene: &Scene, (gpu, radiance): (&Gpu, RadianceFormat), timing: &Timing) {
+fn report(arguments: &Render, scene: &Scene, (gpu, drawing): (&Gpu, &Drawing), timing: &Timing) {
     let adapter = gpu.adapter.get_info();
     let [width, height] = arguments.picture.size;
     let output = arguments.picture.output.display();
     if !arguments.picture.json {
         say(format!("{output}: {width}x{height} on {} in {:.2} s", adapter.name, timing.total()));
+        drawing.exposed.iter().for_each(Exposed::report);
         return;
     }
     let triangles = |mesh: usize| scene.meshes[mesh].indices.len() / 3;
     let figures = json!({
         "output": output.to_string(),
         "size": arguments.picture.size,
-        "msaa": radiance.samples,
+        "msaa": drawing.radiance.samples,
         "adapter": adapter.name,
         "backend": format!("{:?}", adapter.backend).to_lowercase(),
+        // Linear radiance has none.
+        "exposure": drawing.exposed.as_ref().map(|exposed| exposed.exposure),
         "triangles": scene.instances.iter().map(|instance| triangles(instance.mesh)).sum::<usize>(),
         "lights": scene.lights.len(),
         "polygons": scene.lights.iter().map(|light| light.polygons.len()).sum::<usize>(),

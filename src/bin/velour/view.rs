@@ -5,17 +5,21 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::Format;
-use velour::renderer::{Offscreen, RadianceFormat, device};
+use velour::renderer::{Offscreen, device};
 use velour::scene::assets::DRAPE;
 use velour::scene::gltf::{self, Options};
-use velour::scene::{Edits, Scene};
+use velour::scene::{Drawn, Edits, Scene};
 use velour::table::SheenTable;
 use velour::viewer::ViewerError;
 
+use crate::comment::command;
 use crate::console::{complain, say};
+use crate::exposed::Exposed;
 use crate::failure::Failure;
 use crate::loading::Loading;
 use crate::output::check_apart;
+use crate::render::Shows;
+use crate::timing::Timing;
 use crate::{render, state, without_device};
 
 /// The flags of `velour view`.
@@ -80,17 +84,21 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     const SAMPLES: u32 = 4;
     check_writable(output).map_err(Failure::input)?;
     let edits = Edits::default();
-    let picture = match pollster::block_on(device::open_offscreen(None)) {
+    let exposed = match pollster::block_on(device::open_offscreen(None)) {
         Err(why) => without_device::plain(&why, scene, &edits, SIZE)?,
         Ok(gpu) => {
-            let picture = gpu.block_on(Offscreen::screenshot(&gpu, scene, &edits, SIZE)).map_err(render::failure)?;
-            let radiance = RadianceFormat::nearest_display(&gpu.adapter, SAMPLES);
-            radiance
-                .and_then(|radiance| render::shortfall(radiance, SAMPLES, Format::Png))
-                .into_iter()
-                .for_each(complain);
-            picture
+            let (drawn, camera) = (Drawn::new(scene, &edits), edits.camera(scene));
+            let renderer = Offscreen::nearest_for_display(&gpu, SAMPLES, &SheenTable::embedded(), &drawn);
+            let mut renderer = renderer.map_err(render::failure)?;
+            let (settings, timing) = (&drawn.settings, &mut Timing::default());
+            let mut shows = Shows { gpu: &gpu, renderer: &mut renderer, camera: &camera, size: SIZE, settings, timing };
+            let exposed = Exposed::new(&edits, &mut shows)?;
+            render::shortfall(renderer.radiance(), SAMPLES, Format::Png).into_iter().for_each(complain);
+            exposed
         }
     };
-    write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
+    let bytes = exposed.picture.to_png_with_comment(&command()).map_err(Failure::input)?;
+    write_atomically(output, &bytes).map_err(Failure::input)?;
+    exposed.warn();
+    Ok(())
 }

@@ -4,8 +4,8 @@ use velour::reference::{Effort, Filter, Options, SpecularModel};
 use velour::renderer::DeviceError;
 #[cfg(feature = "window")]
 use {
+    crate::exposed::Exposed,
     crate::progress::with_progress,
-    velour::picture::DisplayImage,
     velour::reference::Reference,
     velour::scene::{Drawn, Edits, Scene},
     velour::table::SheenTable,
@@ -33,23 +33,24 @@ pub fn render(
     let filter = if msaa == 1 { Filter::Centre } else { Filter::Box };
     let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
     complain(format!("{why}; the reference draws the picture, on the processor"));
-    let (picture, counts) = reference::render(inputs, arguments, options, EFFORT, &mut timing)?;
-    reference::finish(arguments, inputs, &picture, counts, &mut timing)
+    let rendered = reference::render(inputs, arguments, options, EFFORT, &mut timing)?;
+    reference::finish(arguments, inputs, &rendered, &mut timing)
 }
 
 /// What the viewer shows of a scene, without shadows.
 #[cfg(feature = "window")]
-pub fn plain(why: &DeviceError, scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<DisplayImage, Failure> {
+pub fn plain(why: &DeviceError, scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<Exposed, Failure> {
     let options = Options { shadows: false, ..Options::default() };
-    let drawn = Drawn::new(scene, edits);
-    let renderer = Reference::new(&drawn, &SheenTable::embedded(), options).map_err(reference::failure)?;
+    let (drawn, camera) = (Drawn::new(scene, edits), edits.camera(scene));
+    let mut renderer = Reference::new(&drawn, &SheenTable::embedded(), options).map_err(reference::failure)?;
     complain(format!("{why}; the reference draws the picture, on the processor"));
     let picture = with_progress("reference", |step| {
-        renderer.render(&edits.camera(scene), size, EFFORT, |done, all| {
+        renderer.render(&camera, size, EFFORT, |done, all| {
             step(done as usize, all as usize);
             true
         })
     });
-    let radiance = picture.map_err(reference::failure)?.radiance;
-    Ok(radiance.display(drawn.settings.exposure, drawn.settings.tone))
+    let (picture, tone) = (&picture.map_err(reference::failure)?, drawn.settings.tone);
+    let mut shows = reference::Shows { renderer: &mut renderer, camera: &camera, size, picture, tone };
+    Exposed::new(edits, &mut shows)
 }

@@ -13,7 +13,7 @@ pub(super) struct Context<'a> {
     pub world: World<'a>,
     pub lights: Lights<'a>,
     pub models: Models,
-    pub settings: &'a Settings,
+    pub settings: Settings,
     pub options: Options,
 }
 
@@ -23,7 +23,7 @@ impl<'a> Context<'a> {
             world: World::new(drawn)?,
             lights: Lights::new(drawn),
             models: Models::new(drawn, table, options.specular),
-            settings: &drawn.settings,
+            settings: drawn.settings,
             options,
         })
     }

@@ -49,11 +49,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use camera::View;
 use context::Context;
-use film::Film;
-use glam::DVec3;
+use film::{Film, Means};
+use glam::{DVec3, DVec4};
+use path::Seen;
 use rayon::prelude::*;
 use uniforms::{Sample, Uniforms};
 
+use crate::picture::{metered, metered_size};
 use crate::scene::{Camera, Drawn};
 use crate::table::SheenTable;
 
@@ -62,6 +64,8 @@ use crate::table::SheenTable;
 const BATCHES: u64 = 32;
 /// Most samples a pixel in a batch: a picture that is ended early is made of whole batches.
 const BATCH_MOST: u64 = 16;
+/// The samples of a picture that is metered: of 256 pixels along its longer side, whose noise averages out.
+const METERED: Effort = Effort { samples: 4, seed: 0 };
 /// Pixels that a thread renders at a time.
 const TILE: usize = 256;
 
@@ -112,28 +116,53 @@ impl<'a> Reference<'a> {
         let (batches, tiles) = (batches(samples), pixels.div_ceil(TILE as u64));
         let all = batches.clone().count() as u64 * tiles;
         let (done, stopped) = (AtomicU64::new(0), AtomicBool::new(false));
-        let mut film = Film::new(size);
+        let mut film = Film::new(size, self.context.world.has_unlit);
         for (index, count) in (0_u64..).zip(batches) {
             let tile = |tile: u64| {
                 let is_needed = index == 0 || !stopped.load(Ordering::Relaxed);
                 let range = tile * TILE as u64..pixels.min((tile + 1) * TILE as u64);
                 let means =
-                    if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Vec::new() };
+                    if is_needed { self.means(&view, size[0], range, (seed, index, count)) } else { Means::default() };
                 if !go_on(done.fetch_add(1, Ordering::Relaxed) + 1, all) {
                     stopped.store(true, Ordering::Relaxed);
                 }
                 means
             };
-            let means: Vec<Vec<DVec3>> = (0..tiles).into_par_iter().map(tile).collect();
-            let is_whole = means.iter().map(Vec::len).sum::<usize>() as u64 == pixels;
+            let means: Vec<Means> = (0..tiles).into_par_iter().map(tile).collect();
+            let is_whole = means.iter().map(|means| means.radiance.len()).sum::<usize>() as u64 == pixels;
             if is_whole {
-                film.add(means.into_iter().flatten(), count);
+                film.add(&means, count);
             }
             if stopped.load(Ordering::Relaxed) {
                 break;
             }
         }
         Ok(film.finish())
+    }
+
+    /// The exposure value that metering takes for a picture of this size ([`metered`](crate::picture::metered)), as real
+    /// time takes it: of what surfaces scatter of direct light without shadows, so that lamps in sight do not count;
+    /// where they scatter nothing, of what they emit. None where nothing is lit. Unlit surfaces do not count. The rays
+    /// are not counted either. `go_on` is as for `render`.
+    pub fn meter(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        go_on: impl Fn(u64, u64) -> bool + Sync,
+    ) -> Result<Option<f32>, ReferenceError> {
+        let (settings, options, rays) = (self.context.settings, self.context.options, self.rays());
+        self.context.options = Options { max_bounces: 0, shadows: false, filter: Filter::Box, ..options };
+        let mut exposure = Ok(None);
+        for emission in [false, settings.lobes.emission] {
+            self.context.settings.lobes.emission = emission;
+            let picture = self.render(camera, metered_size(size), METERED, &go_on);
+            exposure = picture.map(|picture| metered(&picture.lit()));
+            if !matches!(exposure, Ok(None)) {
+                break;
+            }
+        }
+        (self.context.settings, self.context.options, self.rays) = (settings, options, AtomicU64::new(rays));
+        exposure
     }
 
     /// The means of a batch's samples over a range of pixels.
@@ -143,7 +172,7 @@ impl<'a> Reference<'a> {
         width: u32,
         range: std::ops::Range<u64>,
         (seed, batch, count): (u64, u64, u64),
-    ) -> Vec<DVec3> {
+    ) -> Means {
         let mut rays = 0;
         let pixel = |pixel: u64| {
             let corner = [pixel % u64::from(width), pixel / u64::from(width)].map(|at| at as f64);
@@ -152,13 +181,20 @@ impl<'a> Reference<'a> {
                 let [x, y, ..] = sample.uniforms.next();
                 let [x, y] = if self.context.options.filter == Filter::Box { [x, y] } else { [0.5, 0.5] };
                 let (ray, range) = view.ray([corner[0] + x, corner[1] + y]);
-                let radiance = path::radiance(&self.context, &ray, range, &mut sample);
+                let seen = path::seen(&self.context, &ray, range, &mut sample);
                 rays += sample.rays;
-                radiance
+                seen
             };
-            (0..count).map(one).sum::<DVec3>() / count as f64
+            let sum = |(radiance, unlit), seen: Seen| (radiance + seen.radiance, unlit + seen.unlit);
+            (0..count).map(one).fold((DVec3::ZERO, DVec4::ZERO), sum)
         };
-        let means = range.map(pixel).collect();
+        let mut means = Means::default();
+        for (radiance, unlit) in range.map(pixel) {
+            means.radiance.push(radiance / count as f64);
+            if self.context.world.has_unlit {
+                means.unlit.push(unlit / count as f64);
+            }
+        }
         self.rays.fetch_add(rays, Ordering::Relaxed);
         means
     }

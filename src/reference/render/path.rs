@@ -1,7 +1,7 @@
 //! Radiance along a ray: what surfaces emit, the direct light that they scatter, and what comes by way of other
 //! surfaces.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::context::Context;
 use super::direct::DirectLight;
@@ -22,15 +22,28 @@ const LAYERS_MOST: usize = 256;
 /// Paths of less throughput are ended at random.
 const ROULETTE: f64 = 0.1;
 
-/// Radiance that comes to the camera along a ray between two distances.
-pub(super) fn radiance(context: &Context, ray: &Ray, [mut near, far]: [f64; 2], sample: &mut Sample) -> DVec3 {
-    let (mut radiance, mut seen) = (DVec3::ZERO, 1.0);
+/// What comes to the camera along a ray.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Seen {
+    pub radiance: DVec3,
+    /// What of that unlit surfaces show, and in `w` the share of the view that they cover.
+    pub unlit: DVec4,
+}
+
+/// What comes to the camera along a ray between two distances.
+pub(super) fn seen(context: &Context, ray: &Ray, [mut near, far]: [f64; 2], sample: &mut Sample) -> Seen {
+    let (mut found, mut seen) = (Seen::default(), 1.0);
     for _ in 0..LAYERS_MOST {
         sample.rays += 1;
         let Some(hit) = context.world.nearest_seen(ray, [near, far]) else { break };
         if hit.opacity > 0.0 {
             let surface = Surface::new(&context.world, ray, &hit);
-            radiance += seen * hit.opacity * leaving(context, surface, sample);
+            let (share, is_unlit) = (seen * hit.opacity, surface.unlit);
+            let leaving = leaving(context, surface, sample);
+            found.radiance += share * leaving;
+            if is_unlit {
+                found.unlit += share * leaving.extend(1.0);
+            }
         }
         seen *= 1.0 - hit.opacity;
         if seen < LEAST_SEEN {
@@ -38,7 +51,7 @@ pub(super) fn radiance(context: &Context, ray: &Ray, [mut near, far]: [f64; 2], 
         }
         near = hit.distance.next_up().max(hit.distance + context.world.apart);
     }
-    radiance
+    found
 }
 
 /// Radiance that leaves a surface to the camera.

@@ -23,6 +23,8 @@ pub(super) struct World<'a> {
     bvh: Bvh<Triangle>,
     /// The distance in metres within which a ray does not meet the surface on which it starts.
     pub apart: f64,
+    /// Whether some material is unlit.
+    pub has_unlit: bool,
 }
 
 /// An instance in the world.
@@ -78,7 +80,8 @@ impl<'a> World<'a> {
         let bounds = scene.bounds();
         let size = (bounds.max - bounds.min).max_element().max(bounds.max.abs().max(bounds.min.abs()).max_element());
         let apart = if size.is_finite() { 1e-9 * f64::from(size) } else { 0.0 };
-        Ok(Self { scene, drawn, places, bvh: Bvh::new(triangles), apart })
+        let has_unlit = drawn.materials.iter().any(|material| material.unlit);
+        Ok(Self { scene, drawn, places, bvh: Bvh::new(triangles), apart, has_unlit })
     }
 
     pub fn triangles(&self) -> usize {

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 use super::{Camera, Layering, Lobes, Orbit, RoughnessMap, Scene, Settings, SheenModel};
-use crate::picture::ToneCurve;
+use crate::picture::{Exposure, ToneCurve};
 
 pub use keys::Keyed;
 pub use selection::{Kind, UnknownThing, select};
@@ -33,8 +33,8 @@ pub struct Edits {
     pub ambient: Option<Vec3>,
     /// A factor of that radiance, >= 0; at 0 its hue is kept.
     pub ambient_strength: Option<f32>,
-    /// Exposure value of a picture that is shown.
-    pub exposure: Option<f32>,
+    /// Exposure of a picture that is shown: stops, or what metering takes.
+    pub exposure: Option<Exposure>,
     /// Tone curve of a picture that is shown.
     pub tone: Option<ToneCurve>,
     /// From where the scene is seen.
@@ -126,7 +126,10 @@ impl Edits {
             lobes: self.lobes.unwrap_or(default.lobes),
             lights_visible: self.lights_visible.unwrap_or(default.lights_visible),
             ambient: scaled(self.ambient.unwrap_or(default.ambient), self.ambient_strength),
-            exposure: self.exposure.unwrap_or(default.exposure),
+            exposure: match self.exposure {
+                Some(Exposure::Stops(stops)) => stops,
+                Some(Exposure::Auto) | None => default.exposure,
+            },
             tone: self.tone.unwrap_or(default.tone),
         }
     }

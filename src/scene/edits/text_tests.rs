@@ -54,7 +54,7 @@ fn full() -> Edits {
         lights_visible: Some(false),
         ambient: Some(Vec3::new(0.1, 0.2, 0.3)),
         ambient_strength: Some(1.5),
-        exposure: Some(-2.0),
+        exposure: Some((-2.0).into()),
         tone: Some(ToneCurve::Agx),
         camera: Some(CameraEdit::Orbit(orbit)),
         every_material: material,
@@ -90,7 +90,7 @@ fn what_is_written_is_read_back_to_the_last_bit() {
 fn a_file_reads_like_the_flags() {
     let velvet = MaterialEdits { alpha: Some(0.7), layering: Some(Layering::Manual(0.5)), ..MaterialEdits::default() };
     let edits = Edits {
-        exposure: Some(0.5),
+        exposure: Some(0.5.into()),
         lobes: Some(Lobes::default()),
         materials: [(0, velvet)].into(),
         lights: [(2, LightEdits { strength: Some(2.0), ..LightEdits::default() })].into(),

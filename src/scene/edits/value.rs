@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::picture::ToneCurve;
+use crate::picture::{Exposure, ToneCurve};
 use crate::scene::{FARTHEST, Layering, Lobes, RoughnessMap, SheenModel};
 
 /// A value as flags and files write it.
@@ -80,10 +80,13 @@ impl Value {
         point.ok_or_else(|| format!("give three numbers in [-{FARTHEST:e},{FARTHEST:e}], say 0,1.5,-2"))
     }
 
-    /// An exposure value. Past 100 stops either way a float has nothing left to show.
-    pub fn exposure(&self) -> Checked<f32> {
-        let exposure = self.number().filter(|number| number.abs() <= 100.0);
-        exposure.ok_or_else(|| "give a number in [-100,100]".to_owned())
+    /// An exposure value, or `auto`. Past 100 stops either way a float has nothing left to show.
+    pub fn exposure(&self) -> Checked<Exposure> {
+        if self.text() == Some(AUTO) {
+            return Ok(Exposure::Auto);
+        }
+        let stops = self.number().filter(|number| number.abs() <= 100.0);
+        stops.map(Exposure::Stops).ok_or_else(|| "give a number in [-100,100], or auto".to_owned())
     }
 
     /// True or false.
@@ -166,6 +169,18 @@ impl Value {
     }
 }
 
+/// What a metered exposure is called.
+const AUTO: &str = "auto";
+
+impl From<Exposure> for Value {
+    fn from(exposure: Exposure) -> Self {
+        match exposure {
+            Exposure::Stops(stops) => stops.into(),
+            Exposure::Auto => AUTO.into(),
+        }
+    }
+}
+
 /// What a list of lobes without any is called.
 const NO_LOBES: &str = "none";
 
@@ -214,7 +229,10 @@ mod tests {
         assert_eq!(flag("1, 0.5,0").color(), Ok(Vec3::new(1.0, 0.5, 0.0)));
         assert_eq!(flag("0, 0.5,30").radiance(), Ok(Vec3::new(0.0, 0.5, 30.0)));
         assert_eq!(flag("0,-0.5,30").point(), Ok(Vec3::new(0.0, -0.5, 30.0)));
-        assert_eq!(flag("-2.5").exposure(), Ok(-2.5));
+        for exposure in [Exposure::Stops(-2.5), Exposure::Auto] {
+            assert_eq!(Value::from(exposure).exposure(), Ok(exposure));
+        }
+        assert_eq!((flag("-2.5").exposure(), flag("auto").exposure()), (Ok((-2.5).into()), Ok(Exposure::Auto)));
         assert_eq!((flag("0").strength(), flag("inf").far()), (Ok(0.0), Ok(f32::INFINITY)));
         assert_eq!(flag("sheen").lobes(), Ok(Lobes { sheen: true, ..Lobes::NONE }));
         assert_eq!(flag("none").lobes(), Ok(Lobes::NONE));
@@ -254,7 +272,7 @@ mod tests {
             assert!(flag(text).color().is_err() && flag(text).radiance().is_err() && flag(text).point().is_err());
         }
         assert!(flag("1,1,-0.1").radiance().is_err() && flag("manual").layering().is_err());
-        for text in ["nan", "inf", "101", "x"] {
+        for text in ["nan", "inf", "101", "x", "Auto", "auto "] {
             assert!(flag(text).exposure().is_err(), "{text}");
         }
         for text in ["", "shadow", "sheen,", "all"] {

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::{Mat4, Vec3};
 
+use crate::picture::Exposure;
+
 use super::shapes::{grid, scene};
 use crate::scene::notices::Notices;
 use crate::scene::{
@@ -132,9 +134,9 @@ fn later_edits_win_and_those_of_one_material_go_before_those_of_all() {
     assert_eq!(later.of_material(0), given(Some(0.4), None));
     // A material that has got its sheen by its alpha keeps it.
     assert_eq!(later.materials[&1].alpha, Some(0.4));
-    let base = Edits { exposure: Some(1.0), lights_visible: Some(false), ..Edits::default() };
-    let merged = base.clone().then(&Edits { exposure: Some(2.0), ..Edits::default() });
-    assert_eq!(merged, Edits { exposure: Some(2.0), ..base.clone() });
+    let base = Edits { exposure: Some(1.0.into()), lights_visible: Some(false), ..Edits::default() };
+    let merged = base.clone().then(&Edits { exposure: Some(Exposure::Auto), ..Edits::default() });
+    assert_eq!(merged, Edits { exposure: Some(Exposure::Auto), ..base.clone() });
     assert_eq!(base.clone().then(&Edits::default()), base);
     assert_eq!(Edits::default().then(&base), base);
 }
