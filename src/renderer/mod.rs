@@ -13,6 +13,7 @@ mod layout;
 mod lights;
 mod materials;
 mod offscreen;
+pub mod paint_order;
 mod pipelines;
 mod prior_sheens;
 mod resident;
