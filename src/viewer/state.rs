@@ -14,6 +14,8 @@ pub struct State {
     pub edits: Edits,
     /// The material that the panel shows.
     pub material: usize,
+    /// What the renderer has to say of the view that it drew last.
+    pub notice: Option<String>,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
     /// What became of the last command: a screenshot's name, or why there is none.
@@ -35,6 +37,7 @@ impl State {
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
+            notice: None,
             frame_time: None,
             message: String::new(),
             center: scene.subject().center(),

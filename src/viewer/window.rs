@@ -157,6 +157,10 @@ impl App {
         match open.frame.draw(open.egui.egui_ctx(), &open.screen, &self.state)? {
             Presented::Yes(drawn) => {
                 open.screen.presented();
+                if self.state.notice.as_deref() != open.frame.notice() {
+                    self.state.notice = open.frame.notice().map(str::to_owned);
+                    open.wake(native::now());
+                }
                 if drawn == Redraw::Again {
                     open.frame_times.add(start.elapsed());
                     self.state.frame_time = open.frame_times.median();

@@ -48,9 +48,10 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
         }
         gpu => gpu.map_err(Failure::device)?,
     };
-    let (bytes, radiance) = draw(&gpu, arguments, &inputs, &mut timing)?;
+    let (bytes, radiance, notice) = draw(&gpu, arguments, &inputs, &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.picture.output, &bytes)).map_err(Failure::input)?;
     inputs.warn();
+    notice.into_iter().for_each(complain);
     shortfall(radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
     report(arguments, &inputs.scene, (&gpu, radiance), &timing);
     Ok(())
@@ -80,13 +81,13 @@ pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The picture's file, in memory, and how its radiance was kept on the way.
+/// The picture's file, in memory, how its radiance was kept on the way, and what is to be said of it.
 fn draw(
     gpu: &Gpu,
     arguments: &Render,
     inputs: &Inputs,
     timing: &mut Timing,
-) -> Result<(Vec<u8>, RadianceFormat), Failure> {
+) -> Result<(Vec<u8>, RadianceFormat, Option<String>), Failure> {
     let Inputs { format, table, .. } = inputs;
     let (drawn, camera) = (inputs.drawn(), inputs.camera());
     let (samples, size, settings) = (arguments.msaa, arguments.picture.size, &drawn.settings);
@@ -107,7 +108,8 @@ fn draw(
             timing.measure("encode", || Ok(picture?.to_exr()))
         }
     };
-    Ok((encoded.map_err(failure)?.map_err(Failure::input)?, radiance))
+    let notice = renderer.notice().map(str::to_owned);
+    Ok((encoded.map_err(failure)?.map_err(Failure::input)?, radiance, notice))
 }
 
 /// A lost device is not bad input.

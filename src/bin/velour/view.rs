@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::Format;
-use velour::renderer::{Offscreen, RadianceFormat, device};
+use velour::renderer::{Offscreen, device};
 use velour::scene::assets::DRAPE;
 use velour::scene::gltf::{self, Options};
-use velour::scene::{Edits, Scene};
+use velour::scene::{Drawn, Edits, Scene};
 use velour::table::SheenTable;
 use velour::viewer::ViewerError;
 
@@ -83,13 +83,13 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
     let picture = match pollster::block_on(device::open_offscreen(None)) {
         Err(why) => without_device::plain(&why, scene, &edits, SIZE)?,
         Ok(gpu) => {
-            let picture = gpu.block_on(Offscreen::screenshot(&gpu, scene, &edits, SIZE)).map_err(render::failure)?;
-            let radiance = RadianceFormat::nearest_display(&gpu.adapter, SAMPLES);
-            radiance
-                .and_then(|radiance| render::shortfall(radiance, SAMPLES, Format::Png))
-                .into_iter()
-                .for_each(complain);
-            picture
+            let (drawn, camera) = (Drawn::new(scene, &edits), edits.camera(scene));
+            let renderer = Offscreen::nearest_for_display(&gpu, SAMPLES, &SheenTable::embedded(), &drawn);
+            let mut renderer = renderer.map_err(render::failure)?;
+            let picture = gpu.block_on(renderer.display(&gpu, &camera, SIZE, &drawn.settings));
+            renderer.notice().into_iter().for_each(complain);
+            render::shortfall(renderer.radiance(), SAMPLES, Format::Png).into_iter().for_each(complain);
+            picture.map_err(render::failure)?
         }
     };
     write_atomically(output, &picture.to_png().map_err(Failure::input)?).map_err(Failure::input)
