@@ -1,6 +1,6 @@
 //! What is blended lies over what is behind it, in whatever order the file has it.
 
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DVec3, Mat4, Vec3, Vec3Swizzles};
 use velour::renderer::Offscreen;
 use velour::scene::{AlphaMode, Camera, Drawn, Edits, Material, Projection, Scene};
 use velour::table::SheenTable;
@@ -162,8 +162,6 @@ fn panes_of_one_mesh_lie_over_each_other() {
         }
     }
 }
-use glam::Vec3Swizzles;
-
 #[test]
 fn nested_glass_is_blended_along_every_ray() {
     let mirrored = Mat4::from_scale(Vec3::new(-1.0, 1.1, 0.9)) * Mat4::from_rotation_y(0.5);

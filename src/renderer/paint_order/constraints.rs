@@ -50,26 +50,39 @@ pub fn find(polygons: &[Polygon]) -> Option<Vec<Vec<Constraint>>> {
         let [first, last] = [entry.min, entry.max].map(|corner| strip(corner[1], strips));
         buckets[first..=last].iter_mut().for_each(|bucket| bucket.push(entry));
     }
-    let budget = Budget::default();
-    let sweep = |(index, mut bucket): (usize, Vec<Entry>)| {
+    buckets.par_iter_mut().for_each(|bucket| {
         bucket.sort_unstable_by(|one, other| one.min[0].total_cmp(&other.min[0]).then(one.polygon.cmp(&other.polygon)));
-        let mut found = Vec::new();
-        for (one, rest) in (1..).map_while(|next| bucket[next - 1..].split_first()) {
-            let near = &rest[..rest.partition_point(|other| other.min[0] < one.max[0])];
-            let mut pairs = 0;
-            for other in near {
-                let low = one.min[1].max(other.min[1]);
-                // A pair is met in each strip that both are in; it counts in the lowest.
-                if low < one.max[1].min(other.max[1]) && strip(low, strips) == index {
-                    pairs += 1;
-                    found.extend(constraint(polygons, one.polygon, other.polygon));
-                }
-            }
-            budget.spend(near.len(), pairs)?;
-        }
-        Some(found)
+    });
+    // To count first costs little, and where there are too many that is all.
+    let budget = Budget::default();
+    let strip_of = |y: f32| strip(y, strips);
+    let count = |(index, bucket): (usize, &Vec<Entry>)| {
+        pairs(bucket, |y| strip_of(y) == index).try_for_each(|(looks, pairs)| budget.spend(looks, pairs.count()))
     };
-    buckets.into_par_iter().enumerate().map(sweep).collect()
+    buckets.par_iter().enumerate().try_for_each(count)?;
+    let compare = |(index, bucket): (usize, &Vec<Entry>)| {
+        let pairs = pairs(bucket, |y| strip_of(y) == index).flat_map(|(_, pairs)| pairs);
+        pairs.filter_map(|[one, other]| constraint(polygons, one, other)).collect()
+    };
+    Some(buckets.par_iter().enumerate().map(compare).collect())
+}
+
+/// For each box of a strip, from left to right: how many start to the right of its left side and to the left of its
+/// right one, and the pairs that it makes with those of them that it overlaps. A pair is met in each strip that both are
+/// in; it counts in the lowest, which is `own`.
+fn pairs<'a>(
+    bucket: &'a [Entry],
+    own: impl Fn(f32) -> bool + Copy + 'a,
+) -> impl Iterator<Item = (usize, impl Iterator<Item = [u32; 2]> + 'a)> {
+    (0..bucket.len()).map(move |at| {
+        let (one, rest) = (&bucket[at], &bucket[at + 1..]);
+        let near = &rest[..rest.partition_point(|other| other.min[0] < one.max[0])];
+        let meets = move |other: &&Entry| {
+            let low = one.min[1].max(other.min[1]);
+            low < one.max[1].min(other.max[1]) && own(low)
+        };
+        (near.len(), near.iter().filter(meets).map(|other| [one.polygon, other.polygon]))
+    })
 }
 
 fn constraint(polygons: &[Polygon], one: u32, other: u32) -> Option<Constraint> {

@@ -23,7 +23,7 @@ use polygon::{Polygon, Projector};
 pub const TRIANGLES_MAX: usize = 1 << 20;
 
 /// The most pairs of triangles whose boxes overlap in the picture, for the order to be exact.
-pub const PAIRS_MAX: usize = 1 << 24;
+pub const PAIRS_MAX: usize = 1 << 23;
 
 /// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
@@ -64,11 +64,12 @@ impl PaintOrder {
     /// Past `PAIRS_MAX` of them, the order is that of the triangles' middles.
     pub fn new(meshes: &[PlacedMesh], view: &View) -> Self {
         let projector = Projector::new(view);
-        let project = |(index, mesh): (usize, &PlacedMesh)| projector.polygons(index as u32, mesh);
-        let polygons: Vec<Vec<Polygon>> = meshes.par_iter().enumerate().map(project).collect();
-        let polygons = polygons.concat();
-        let mut by_middle: Vec<u32> = (0..polygons.len() as u32).collect();
-        by_middle.sort_by(|&one, &other| polygons[one as usize].middle.total_cmp(&polygons[other as usize].middle));
+        let project = |(index, mesh)| projector.polygons(index as u32, mesh);
+        let polygons: Vec<Polygon> = meshes.par_iter().enumerate().flat_map(project).collect();
+        let middles = polygons.iter().map(|polygon| polygon.middle).zip(0..);
+        let mut by_middle: Vec<(f64, u32)> = middles.collect();
+        by_middle.par_sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let by_middle: Vec<u32> = by_middle.into_iter().map(|(_, index)| index).collect();
         let constraints = constraints::find(&polygons);
         let is_exact = constraints.is_some();
         let order = match constraints {

@@ -54,15 +54,9 @@ fn heights(polygon: &Polygon, plane: &Polygon) -> [f64; 2] {
     })
 }
 
-/// The sides of a polygon.
-fn sides(polygon: &Polygon) -> impl Iterator<Item = (DVec2, DVec2)> {
-    let corners = polygon.corners();
-    (0..corners.len()).map(|index| (corners[index], corners[(index + 1) % corners.len()]))
-}
-
 /// Whether some side of the first polygon has all of the other one beyond it.
 fn is_apart(one: &Polygon, other: &Polygon) -> bool {
-    sides(one).any(|(from, to)| {
+    one.sides().any(|[from, to]| {
         let side = to - from;
         let narrowest = NARROWEST * (side.x.abs() + side.y.abs());
         other.corners().iter().all(|corner| side.perp_dot(corner - from) <= narrowest)
@@ -75,7 +69,7 @@ fn middle_of_overlap(one: &Polygon, other: &Polygon) -> Option<DVec2> {
     let mut corners = [DVec2::ZERO; 8];
     let mut count = one.corners().len();
     corners[..count].copy_from_slice(one.corners());
-    for (from, to) in sides(other) {
+    for [from, to] in other.sides() {
         let (uncut, side) = (corners, to - from);
         let height = |corner: DVec2| side.perp_dot(corner - from);
         let mut kept = 0;

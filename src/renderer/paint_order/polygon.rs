@@ -18,8 +18,8 @@ const ROUNDING: f64 = 4.0 * (f32::EPSILON as f64) / 2.0;
 /// What is left of a triangle in front of the near plane, projected into the picture, which is the square from -1 to 1.
 #[derive(Clone, Debug)]
 pub struct Polygon {
-    /// Counter-clockwise; the first `count` of them.
-    corners: [DVec2; 4],
+    /// Counter-clockwise: the first `count` of them, and the first one again.
+    corners: [DVec2; 5],
     count: usize,
     /// The nearness at (x, y) is `plane . (x, y, 1)`. It grows towards the eye: the reciprocal of the depth along the
     /// view or, in an orthographic view, depth as it is stored.
@@ -39,6 +39,11 @@ pub struct Polygon {
 impl Polygon {
     pub fn corners(&self) -> &[DVec2] {
         &self.corners[..self.count]
+    }
+
+    /// From where to where each side runs.
+    pub fn sides(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.corners[..=self.count].array_windows().copied()
     }
 
     /// The nearness of its plane at a point of the picture.
@@ -75,17 +80,17 @@ impl Projector {
     }
 
     /// The triangles of the mesh of this index that the view shows, in order.
-    pub fn polygons<'a>(&'a self, index: u32, mesh: &'a PlacedMesh) -> Vec<Polygon> {
+    pub fn polygons<'a>(&'a self, index: u32, mesh: &'a PlacedMesh) -> impl ParallelIterator<Item = Polygon> + 'a {
         let world_from_mesh = mesh.world_from_mesh.as_dmat4();
         let mirrors = DMat3::from_mat4(world_from_mesh).determinant() < 0.0;
-        let polygon = |(triangle, corners): (usize, &[u32; 3])| {
+        let polygon = move |(triangle, corners): (usize, &[u32; 3])| {
             let corners = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
             let source = Painted { mesh: index, triangle: triangle as u32 };
             self.polygon(corners.map(|corner| world_from_mesh.transform_point3(corner)), source)
                 .filter(|(_, is_counter_clockwise)| mesh.double_sided || *is_counter_clockwise != mirrors)
                 .map(|(polygon, _)| polygon)
         };
-        mesh.triangles.par_iter().enumerate().filter_map(polygon).collect()
+        mesh.triangles.par_iter().enumerate().filter_map(polygon)
     }
 
     /// The polygon of a triangle, and whether it is seen counter-clockwise; none where nothing of it is in sight.
@@ -98,12 +103,14 @@ impl Projector {
         if determinant < 0.0 {
             kept[..count].reverse();
         }
-        let corners = kept.map(|point| point.xy() / point.w);
+        let mut corners = [DVec2::ZERO; 5];
+        kept[..count].iter().zip(&mut corners).for_each(|(point, corner)| *corner = point.xy() / point.w);
+        corners[count] = corners[0];
         let [min, max] = bounds(&corners[..count]);
         let is_seen = min.cmplt(DVec2::ONE).all() && max.cmpgt(DVec2::NEG_ONE).all();
         let area = area(&corners[..count]);
-        // Edge-on, or not finite.
-        if !is_seen || !plane.is_finite() || !(area > NARROWEST * NARROWEST) {
+        let is_edge_on = !plane.is_finite() || !area.is_finite() || area <= NARROWEST * NARROWEST;
+        if !is_seen || is_edge_on {
             return None;
         }
         let nearnesses = kept[..count].iter().map(|point| point.z / point.w);
