@@ -74,6 +74,22 @@ pub(super) struct Draws {
     bounds: Vec<Bounds>,
     /// What is opaque comes first. Hidden lights are in no batch.
     pub batches: Vec<Batch>,
+    /// The blended instances that are drawn, in the file's order.
+    pub blended: Vec<BlendedInstance>,
+}
+
+/// What is to be known of a blended instance to sort it.
+#[derive(Clone, Copy)]
+pub(super) struct BlendedInstance {
+    pub mesh: usize,
+    pub world_from_mesh: Mat4,
+    pub double_sided: bool,
+    /// In the world.
+    pub bounds: Bounds,
+    /// Index into `Draws::batches`.
+    pub batch: usize,
+    /// Index into `Draws::instances`.
+    pub slot: u32,
 }
 
 impl Draws {
@@ -94,11 +110,13 @@ impl Draws {
         // Stable: instances that are drawn alike stay in the file's order.
         order.sort_by_key(key);
         let mut draws = Self::default();
+        let mut blended: Vec<(usize, BlendedInstance)> = Vec::new();
         for index in order {
             let instance = &drawn.instances[index];
             let at = draws.instances.len() as u32;
             draws.instances.push(gpu_instance(scene, instance, drawn.emission(index), variants[index].mirrored));
-            draws.bounds.push(mesh_bounds[instance.mesh].transformed(instance.world_from_mesh));
+            let bounds = mesh_bounds[instance.mesh].transformed(instance.world_from_mesh);
+            draws.bounds.push(bounds);
             if is_hidden(index) {
                 continue;
             }
@@ -110,7 +128,14 @@ impl Draws {
                     draws.batches.push(Batch { variant, mesh, material, range: at..at + 1 });
                 }
             }
+            if variant.look.blend {
+                let (world_from_mesh, double_sided) = (instance.world_from_mesh, variant.look.double_sided);
+                let batch = draws.batches.len() - 1;
+                blended.push((index, BlendedInstance { mesh, world_from_mesh, double_sided, bounds, batch, slot: at }));
+            }
         }
+        blended.sort_by_key(|(index, _)| *index);
+        draws.blended = blended.into_iter().map(|(_, instance)| instance).collect();
         draws
     }
 
@@ -131,21 +156,6 @@ impl Draws {
             }
             runs.into_iter().map(move |run| (batch, run))
         })
-    }
-
-    /// The blended instances that may be in the view, the farthest first.
-    pub fn blended(&self, frustum: &Frustum) -> Vec<(&Batch, Range<u32>)> {
-        let mut found = Vec::new();
-        for batch in self.batches.iter().filter(|batch| batch.variant.look.blend) {
-            for at in batch.range.clone() {
-                let bounds = &self.bounds[at as usize];
-                if frustum.may_show(bounds) {
-                    found.push((frustum.depth(bounds.center()), batch, at..at + 1));
-                }
-            }
-        }
-        found.sort_by(|(left, ..), (right, ..)| right.total_cmp(left));
-        found.into_iter().map(|(_, batch, run)| (batch, run)).collect()
     }
 }
 
@@ -178,7 +188,7 @@ impl Frustum {
     }
 
     /// Whether any part of the box may be inside. Boxes near the edges may be let through although they are outside.
-    fn may_show(&self, bounds: &Bounds) -> bool {
+    pub fn may_show(&self, bounds: &Bounds) -> bool {
         let (center, half) = (bounds.center(), 0.5 * bounds.max - 0.5 * bounds.min);
         self.planes.iter().all(|plane| {
             let (normal, reach) = (plane.truncate(), plane.truncate().abs().dot(half));
@@ -188,7 +198,8 @@ impl Frustum {
         })
     }
 
-    fn depth(&self, point: Vec3) -> f32 {
+    /// Grows with the distance along the view.
+    pub fn depth(&self, point: Vec3) -> f32 {
         self.depth.dot(point.extend(1.0))
     }
 }

@@ -83,7 +83,9 @@ impl Renderer {
     async fn exposed(&mut self, gpu: &Gpu, meter: &mut Meter, settings: &Settings) -> Result<LinearImage, RenderError> {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("meter") });
         let gain = settings.exposure.exp2();
-        self.surfaces.encode(&gpu.queue, &mut encoder, &meter.targets, &self.resident, (&meter.view, settings, gain));
+        self.blended.prepare(gpu, &self.resident.draws, &meter.view);
+        let things = (&self.resident, &self.blended);
+        self.surfaces.encode(&gpu.queue, &mut encoder, &meter.targets, things, (&meter.view, settings, gain));
         let output = (&meter.canvas.view, Rect::full(meter.size));
         meter.display.encode((&gpu.device, &gpu.queue), &mut encoder, &meter.targets, output, Showing::Measured);
         let texels = meter.canvas.read_floats(gpu, encoder).await?;

@@ -3,8 +3,10 @@
 //! A frame goes through two passes. The first draws every surface's radiance, lit by the polygon lights in closed form,
 //! and exposed, into floating-point targets; the second shows it (tone curve, sRGB) or measures it (plain linear radiance).
 
+mod blended;
 #[cfg(test)]
 mod branches;
+mod calls;
 pub mod device;
 mod display;
 mod draws;
@@ -14,6 +16,7 @@ mod lights;
 mod materials;
 mod meter;
 mod offscreen;
+pub mod paint_order;
 mod pipelines;
 mod prior_sheens;
 mod readback;
@@ -33,6 +36,7 @@ pub use shader::SURFACES_WGSL;
 pub use targets::RadianceFormat;
 pub use view::{Rect, View};
 
+use blended::Blended;
 use display::DisplayPass;
 use resident::Resident;
 use surfaces::SurfacesPass;
@@ -94,6 +98,7 @@ pub struct Format {
 pub struct Renderer {
     format: Format,
     resident: Resident,
+    blended: Blended,
     surfaces: SurfacesPass,
     display: DisplayPass,
     targets: Option<Targets>,
@@ -104,9 +109,11 @@ impl Renderer {
     /// Uploads the scene and makes the pipelines. Drivers may put off compiling them until the first frame.
     pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
         let resident = Resident::new(gpu, drawn)?;
+        let mut blended = Blended::default();
+        blended.update(drawn, &resident.draws);
         let surfaces = SurfacesPass::new(gpu, format.radiance, table, &resident);
         let display = DisplayPass::new(&gpu.device, format.radiance, format.output, format.measured);
-        Ok(Self { format, resident, surfaces, display, targets: None, targets_made: 0 })
+        Ok(Self { format, resident, blended, surfaces, display, targets: None, targets_made: 0 })
     }
 
     /// Sends what other edits make of the same scene to the device: materials, lights and places.
@@ -114,6 +121,7 @@ impl Renderer {
         if self.resident.update(gpu, drawn)? {
             self.surfaces.rebind(&gpu.device, &self.resident);
         }
+        self.blended.update(drawn, &self.resident.draws);
         self.surfaces.prepare(gpu, &self.resident);
         Ok(())
     }
@@ -134,8 +142,15 @@ impl Renderer {
                 Targets::new(&gpu.device, size, self.format.radiance)
             }
         };
-        self.surfaces.encode(&gpu.queue, encoder, &targets, &self.resident, (view, settings, showing.gain()));
+        self.blended.prepare(gpu, &self.resident.draws, view);
+        let things = (&self.resident, &self.blended);
+        self.surfaces.encode(&gpu.queue, encoder, &targets, things, (view, settings, showing.gain()));
         self.targets = Some(targets);
+    }
+
+    /// What is to be said of the view that was drawn last: where so much is blended that it could not be sorted exactly.
+    pub fn notice(&self) -> Option<&str> {
+        self.blended.notice.as_deref()
     }
 
     /// How many pipelines and targets there have been so far: where it grows, a frame took longer than others will.

@@ -15,6 +15,7 @@ const TILE_SIDE: u32 = 2048;
 pub struct Offscreen {
     renderer: Renderer,
     format: Format,
+    notice: Option<String>,
 }
 
 impl Offscreen {
@@ -56,7 +57,7 @@ impl Offscreen {
         drawn: &Drawn,
     ) -> Result<Self, RenderError> {
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
+        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None })
     }
 
     fn for_linear_in(
@@ -66,7 +67,7 @@ impl Offscreen {
         drawn: &Drawn,
     ) -> Result<Self, RenderError> {
         let format = Format { radiance, output: radiance.texture, measured: true };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format })
+        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None })
     }
 
     /// The picture that `velour render` makes of a scene with the flags that make these edits: through their camera, else
@@ -91,6 +92,11 @@ impl Offscreen {
     /// How radiance is kept on the way: samples a pixel, and bits of each number.
     pub fn radiance(&self) -> RadianceFormat {
         self.format.radiance
+    }
+
+    /// What is to be said of the picture that was drawn last: where so much is blended that it could not be sorted exactly.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
     }
 
     /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
@@ -164,9 +170,11 @@ impl Offscreen {
             return Err(RenderError::Size { size, limit });
         }
         let mut pixels = vec![Pixel::default(); size[0] as usize * size[1] as usize];
+        self.notice = None;
         for tile in Rect::tiles(size, TILE_SIDE) {
             let view = View::new(camera, size, tile);
             let rows = self.tile(gpu, &view, tile, settings, showing).await?;
+            self.notice = self.notice.take().or_else(|| self.renderer.notice().map(str::to_owned));
             let texel_size = size_of::<Texel>();
             let stride = rows.len() / tile.height as usize;
             for (y, row) in rows.chunks_exact(stride).enumerate() {

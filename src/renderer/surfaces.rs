@@ -1,14 +1,15 @@
 //! The first pass: every surface's radiance into the targets.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Face, Queue, RenderPass, RenderPipeline, TextureView};
 
 use super::Gpu;
-use super::draws::{Batch, Frustum, Variant};
+use super::blended::Blended;
+use super::calls::{Call, Draw, Source, split};
+use super::draws::{Frustum, Variant};
 use super::pipelines::Pipelines;
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
@@ -39,7 +40,7 @@ struct Frame {
 /// Draws a scene's surfaces.
 pub struct SurfacesPass {
     layout: BindGroupLayout,
-    made: HashMap<(Variant, Option<Face>), RenderPipeline>,
+    made: HashMap<Variant, RenderPipeline>,
     pipelines: Pipelines,
     frame: TrackedBuffer,
     albedos: PriorAlbedos,
@@ -82,10 +83,9 @@ impl SurfacesPass {
             self.albedos.fill(gpu, &self.pipelines.shader);
         }
         for batch in &resident.draws.batches {
-            for &culled in culled_faces(&batch.variant) {
-                let make = || self.pipelines.make(&gpu.device, &batch.variant, culled);
-                self.made.entry((batch.variant, culled)).or_insert_with(make);
-            }
+            let culled = (!batch.variant.look.double_sided).then_some(Face::Back);
+            let make = || self.pipelines.make(&gpu.device, &batch.variant, culled);
+            self.made.entry(batch.variant).or_insert_with(make);
         }
     }
 
@@ -104,7 +104,7 @@ impl SurfacesPass {
         queue: &Queue,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
-        resident: &Resident,
+        (resident, blended): (&Resident, &Blended),
         (view, settings, gain): (&View, &Settings, f32),
     ) {
         let weight = |on: bool| f32::from(u8::from(on));
@@ -123,70 +123,50 @@ impl SurfacesPass {
         };
         self.frame.write(queue, bytemuck::bytes_of(&frame));
         let frustum = Frustum::new(view.clip_from_world, view.eye);
-        let calls = calls(resident, &frustum, self.triangles_a_pass);
+        let opaque = resident.draws.opaque(&frustum).map(|(batch, instances)| {
+            let indices = 0..resident.meshes[batch.mesh].index_count;
+            Draw { batch, instances, indices, source: Source::Mesh }
+        });
+        let calls = split(opaque.chain(blended.draws(resident)), self.triangles_a_pass);
         // The first pass clears the targets, whatever there is to draw.
         let passes = calls.chunk_by(|one, next| one.pass == next.pass).chain(calls.is_empty().then_some(&[][..]));
         for (index, calls) in passes.enumerate() {
             let mut pass = begin(encoder, targets, index == 0);
             pass.set_bind_group(0, &self.bind_group, &[]);
-            calls.iter().for_each(|call| self.draw(&mut pass, resident, call));
+            let mut before = None;
+            for Call { draw, .. } in calls {
+                self.bind(&mut pass, (resident, blended), draw, before.replace(draw));
+                pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
+            }
         }
     }
 
-    fn draw(&self, pass: &mut RenderPass, resident: &Resident, call: &Call) {
-        let (batch, mesh) = (call.batch, &resident.meshes[call.batch.mesh]);
-        pass.set_bind_group(1, resident.textures(batch), &[]);
-        bind_vertices(pass, mesh, &resident.constants, &batch.variant);
-        pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.set_pipeline(&self.made[&(batch.variant, call.culled)]);
-        pass.draw_indexed(call.indices.clone(), 0, call.instances.clone());
+    /// Sets what a call needs and the one before it in the pass did not: of blended triangles there may be many calls.
+    fn bind(
+        &self,
+        pass: &mut RenderPass,
+        (resident, blended): (&Resident, &Blended),
+        draw: &Draw,
+        before: Option<&Draw>,
+    ) {
+        let mesh = &resident.meshes[draw.batch.mesh];
+        let is_same_batch = before.is_some_and(|before| std::ptr::eq(before.batch, draw.batch));
+        if !is_same_batch {
+            pass.set_bind_group(1, resident.textures(draw.batch), &[]);
+            bind_vertices(pass, mesh, &resident.constants, &draw.batch.variant);
+            pass.set_pipeline(&self.made[&draw.batch.variant]);
+        }
+        let is_same_source = before.is_some_and(|before| before.source == draw.source);
+        if !(is_same_source && (is_same_batch || draw.source == Source::Sorted)) {
+            let sorted = blended.indices().filter(|_| draw.source == Source::Sorted);
+            pass.set_index_buffer(sorted.unwrap_or(&mesh.indices).slice(..), wgpu::IndexFormat::Uint32);
+        }
     }
 }
 
 /// Most triangles that a pass draws on software drivers, which first sort them into tiles and keep 70 bytes for each
 /// until the pass ends.
 const TRIANGLES_A_PASS: u32 = 1 << 16;
-
-/// One call of a pass.
-struct Call<'a> {
-    batch: &'a Batch,
-    culled: Option<Face>,
-    instances: Range<u32>,
-    indices: Range<u32>,
-    /// Index of the pass that it belongs to.
-    pass: usize,
-}
-
-/// The calls that draw what the view shows, in order, in pieces that fit into a pass.
-fn calls<'a>(resident: &'a Resident, frustum: &Frustum, triangles_a_pass: u32) -> Vec<Call<'a>> {
-    let draws = resident.draws.opaque(frustum).chain(resident.draws.blended(frustum));
-    let mut calls: Vec<Call> = Vec::new();
-    let (mut pass, mut room) = (0, triangles_a_pass);
-    for (batch, run) in draws {
-        let index_count = resident.meshes[batch.mesh].index_count;
-        for &culled in culled_faces(&batch.variant) {
-            let (mut instances, mut first) = (run.clone(), 0);
-            while !instances.is_empty() {
-                let triangles = (index_count - first) / 3;
-                if room < triangles.min(triangles_a_pass) {
-                    (pass, room) = (pass + 1, triangles_a_pass);
-                }
-                // As many whole instances as there is room for; where there is none for a whole one, a part of it.
-                let (count, indices) = match room / triangles.max(1) {
-                    0 => (0, first..first + 3 * room),
-                    _ if first > 0 => (1, first..index_count),
-                    fitting => (fitting.min(instances.len() as u32), 0..index_count),
-                };
-                let drawn = instances.start..instances.start + count.max(1);
-                room -= (indices.len() as u32 / 3) * drawn.len() as u32;
-                first = if count == 0 { indices.end } else { 0 };
-                instances.start += count;
-                calls.push(Call { batch, culled, instances: drawn, indices, pass });
-            }
-        }
-    }
-    calls
-}
 
 /// Begins a pass over the targets, which are cleared first or keep what they hold.
 fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: bool) -> RenderPass<'a> {
@@ -209,16 +189,6 @@ fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: b
         }),
         ..Default::default()
     })
-}
-
-/// The faces that each call for a mesh leaves out. A mesh that is double-sided and blended takes two: its back faces
-/// are drawn first.
-fn culled_faces(variant: &Variant) -> &'static [Option<Face>] {
-    match (variant.look.double_sided, variant.look.blend) {
-        (false, _) => &[Some(Face::Back)],
-        (true, false) => &[None],
-        (true, true) => &[Some(Face::Front), Some(Face::Back)],
-    }
 }
 
 fn bind_vertices(pass: &mut RenderPass, mesh: &MeshBuffers, constants: &wgpu::Buffer, variant: &Variant) {

@@ -88,6 +88,11 @@ impl Frame {
         Ok(Self { surface, configuration, gpu, renderer, egui, freed: Vec::new(), made: 0, is_checked: false, place })
     }
 
+    /// What is to be said of the view that was drawn last.
+    pub fn notice(&self) -> Option<&str> {
+        self.renderer.notice()
+    }
+
     pub fn max_texture_side(&self) -> usize {
         self.gpu.device.limits().max_texture_dimension_2d as usize
     }

@@ -1,4 +1,4 @@
-//! What the loader has to say about a scene, in the panel.
+//! What the loader has to say about a scene, and the renderer about a view, in the panel.
 
 use egui::{CollapsingHeader, ScrollArea, Ui};
 
@@ -6,11 +6,12 @@ use egui::{CollapsingHeader, ScrollArea, Ui};
 const HEIGHT: f32 = 160.0;
 
 /// A section that is closed at first, with one paragraph a notice; nothing where there are none.
-pub fn show(ui: &mut Ui, notices: &[String]) {
-    if notices.is_empty() {
+pub fn show<'a>(ui: &mut Ui, notices: impl Iterator<Item = &'a String> + Clone) {
+    let count = notices.clone().count();
+    if count == 0 {
         return;
     }
-    CollapsingHeader::new(format!("notices ({})", notices.len())).id_salt("notices").show(ui, |ui| {
+    CollapsingHeader::new(format!("notices ({count})")).id_salt("notices").show(ui, |ui| {
         ScrollArea::vertical().id_salt("notices").max_height(HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
             for notice in notices {
                 ui.add(egui::Label::new(one_line(notice)).wrap());
@@ -40,7 +41,7 @@ mod tests {
             let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(250.0, 700.0)));
             let time = Some(0.05 * index as f64);
             let output = context.run_ui(RawInput { screen_rect, events, time, ..RawInput::default() }, |ui| {
-                let section = ui.scope(|ui| show(ui, notices)).response.rect;
+                let section = ui.scope(|ui| show(ui, notices.iter())).response.rect;
                 taken = [section.width(), section.height()];
             });
             output.drop_without_applying_deltas();

@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         ui.add(egui::Label::new(egui::RichText::new(&state.name).heading()).truncate());
-        notices::show(ui, &state.notices);
+        notices::show(ui, state.notices.iter().chain(&state.notice));
         ui.separator();
         material::show(ui, state);
         picture(ui, state);

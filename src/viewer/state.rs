@@ -15,6 +15,8 @@ pub struct State {
     pub edits: Edits,
     /// The material that the panel shows.
     pub material: usize,
+    /// What the renderer has to say of the view that it drew last.
+    pub notice: Option<String>,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
     /// What metering took for an exposure that is automatic; none before it has, and where it is to do so anew.
@@ -40,6 +42,7 @@ impl State {
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
+            notice: None,
             frame_time: None,
             metered: None,
             notices: scene.notices.clone(),

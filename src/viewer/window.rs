@@ -163,6 +163,10 @@ impl App {
         match presented {
             Presented::Yes(drawn) => {
                 open.screen.presented();
+                if self.state.notice.as_deref() != open.frame.notice() {
+                    self.state.notice = open.frame.notice().map(str::to_owned);
+                    open.wake(native::now());
+                }
                 if drawn == Redraw::Again {
                     open.frame_times.add(start.elapsed());
                     self.state.frame_time = open.frame_times.median();

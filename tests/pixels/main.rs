@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod base;
+mod blended;
 mod borders;
 mod command;
 mod comments;

@@ -53,6 +53,7 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
     let drawing = draw(&gpu, arguments, &inputs, &mut timing)?;
     timing.measure("write", || write_atomically(&arguments.picture.output, &drawing.bytes)).map_err(Failure::input)?;
     inputs.warn();
+    drawing.notice.iter().for_each(complain);
     shortfall(drawing.radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
     drawing.exposed.iter().for_each(Exposed::warn);
     report(arguments, &inputs.scene, (&gpu, &drawing), &timing);
@@ -89,6 +90,8 @@ struct Drawing {
     bytes: Vec<u8>,
     /// How its radiance was kept on the way.
     radiance: RadianceFormat,
+    /// What the renderer has to say of it.
+    notice: Option<String>,
     /// What it shows, of a .png.
     exposed: Option<Exposed>,
 }
@@ -116,7 +119,8 @@ fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> 
             (timing.measure("encode", || picture.to_exr_with_comment(&command())), None)
         }
     };
-    Ok(Drawing { bytes: bytes.map_err(Failure::input)?, radiance, exposed })
+    let notice = renderer.notice().map(str::to_owned);
+    Ok(Drawing { bytes: bytes.map_err(Failure::input)?, radiance, notice, exposed })
 }
 
 /// What draws a picture that is shown.

@@ -93,6 +93,7 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
             let (settings, timing) = (&drawn.settings, &mut Timing::default());
             let mut shows = Shows { gpu: &gpu, renderer: &mut renderer, camera: &camera, size: SIZE, settings, timing };
             let exposed = Exposed::new(&edits, &mut shows)?;
+            renderer.notice().into_iter().for_each(complain);
             render::shortfall(renderer.radiance(), SAMPLES, Format::Png).into_iter().for_each(complain);
             exposed
         }
