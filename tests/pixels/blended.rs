@@ -170,8 +170,9 @@ fn nested_glass_is_blended_along_every_ray() {
         ball(0.25, glass([0.1, 0.9, 0.2], 0.6, false)).placed(mirrored),
         // One mesh of two balls, the outer one first.
         joined([0.7, 0.4].map(|radius| ball(radius, glass([0.2, 0.3, 1.0], 0.5, false)))).placed(mirrored),
-        Thing::rectangle([1.6, 1.6], glass([0.7, 0.7, 0.1], 0.4, true))
-            .placed(Mat4::from_translation(-1.0 * Vec3::Y) * facing([0.0; 3], [0.0, 1.0, 0.0])),
+        // A floor that reaches under the eye: its middle is nearer than the balls that stand before it.
+        Thing::rectangle([4.0, 4.0], glass([0.7, 0.7, 0.1], 0.4, true))
+            .placed(Mat4::from_translation(Vec3::new(0.0, -1.0, 2.0)) * facing([0.0; 3], [0.0, 1.0, 0.0])),
     ];
     hold(&mut Stage::new(things, Mat4::IDENTITY).scene(), &cameras());
 }
