@@ -6,6 +6,7 @@ mod borders;
 mod command;
 mod compare;
 mod comparison;
+mod coverage;
 mod documented;
 mod edge_on;
 mod embedded;
