@@ -58,7 +58,8 @@ struct MaterialSurface {
     // Of the mean of the unit normals that the normal map's texel stands for.
     normal_length: f32,
     occlusion: f32,
-    alpha_cutoff: f32,
+    // Which of the pixel's samples are covered, a bit each, where that counts.
+    samples: u32,
     layering: u32,
     manual: f32,
 }
@@ -89,6 +90,10 @@ struct MaterialSurface {
 // A uniform, because texture filtering takes derivatives, and helper invocations may read zeros from storage.
 @group(1) @binding(20) var<uniform> material_transforms: MaterialTransforms;
 
+// The base colour's, where that is cut out.
+@group(1) @binding(21) var material_shares: texture_2d<f32>;
+@group(1) @binding(22) var material_shares_sampler: sampler;
+
 // The sheen's alpha for the user's roughness, both in [0, 1]: scene::RoughnessMap::alpha_from_roughness.
 fn material_alpha_from_roughness(roughness: f32, exponent: f32) -> f32 {
     return pow(roughness, exponent);
@@ -101,7 +106,7 @@ fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurf
         (*factors).base_color.rgb, (*factors).base_color.a, (*factors).metallic, (*factors).roughness, (*factors).f0,
         (*factors).specular, (*factors).sheen_color * (*factors).sheen_weight, (*factors).sheen_weight,
         material_alpha_from_roughness((*factors).sheen_roughness, (*factors).alpha_exponent), emission, normal, 1.0, 1.0,
-        (*factors).alpha_cutoff, (*factors).layering, (*factors).manual,
+        select(0u, COVERAGE_ALL, (*factors).base_color.a >= (*factors).alpha_cutoff), (*factors).layering, (*factors).manual,
     );
 }
 
@@ -118,16 +123,23 @@ fn material_uv(slot: u32, tex_coords: vec4f) -> vec2f {
 
 fn material_textured(
     material: u32, emission: vec3f, normal: vec3f, tangent: vec4f, tex_coords: vec4f, color: vec4f, pixel: vec2f,
+    seed: u32,
 ) -> MaterialSurface {
     var surface = material_plain(material, emission, normal);
     surface.base_color *= color.rgb;
-    surface.opacity *= color.a;
+    var texel = coverage_untextured();
     if material_has(MATERIAL_BASE_COLOR) {
         let uv = material_uv(MATERIAL_BASE_COLOR, tex_coords);
-        let texel = texels_at(material_base_color, material_base_color_sampler, uv, pixel);
-        surface.base_color *= texel.rgb;
-        surface.opacity *= texel.a;
+        texel = coverage_texel(
+            material_base_color, material_base_color_sampler, material_shares, material_shares_sampler, uv, pixel,
+        );
     }
+    surface.base_color *= texel.color.rgb;
+    if VARIANT_MASK {
+        let cutoff = material_factors[material].alpha_cutoff;
+        surface.samples = coverage_samples(texel, surface.opacity, color.a, cutoff, pixel, seed);
+    }
+    surface.opacity *= color.a * texel.color.a;
     if material_has(MATERIAL_METALLIC_ROUGHNESS) {
         let uv = material_uv(MATERIAL_METALLIC_ROUGHNESS, tex_coords);
         let texel = texels_at(material_metallic_roughness, material_metallic_roughness_sampler, uv, pixel);
@@ -178,22 +190,4 @@ fn material_textured(
         surface.sheen_weight *= weight;
     }
     return surface;
-}
-
-// What is left of the base under a sheen of this albedo, which may pass 1 (Conty-Kulla's does), seen from the view's side.
-fn material_base_weight(surface: MaterialSurface, sheen_albedo: f32) -> f32 {
-    if !VARIANT_SHEEN {
-        return 1.0;
-    }
-    switch surface.layering {
-        case MATERIAL_LAYERING_GLTF, MATERIAL_LAYERING_RECIPROCAL: {
-            return max(sheen_base_weight(surface.sheen_color, sheen_albedo), 0.0);
-        }
-        case MATERIAL_LAYERING_OPENPBR: {
-            return max(sheen_base_weight_openpbr(surface.sheen_weight, sheen_albedo), 0.0);
-        }
-        default: {
-            return surface.manual;
-        }
-    }
 }

@@ -32,7 +32,7 @@ fn receiver_at(
     receiver.sheen_color = surface.sheen_color;
     receiver.sheen_alpha = surface.sheen_alpha;
     receiver.layering = surface.layering;
-    receiver.base_weight = material_base_weight(surface, lobes.sheen.albedo);
+    receiver.base_weight = receiver_material_weight(surface, lobes.sheen.albedo);
     return receiver;
 }
 
@@ -43,4 +43,22 @@ fn receiver_base_weight(receiver: Receiver, cosine: f32) -> f32 {
     }
     let albedo = lobes_sheen(receiver.sheen_alpha, cosine).albedo;
     return min(receiver.base_weight, max(sheen_base_weight(receiver.sheen_color, albedo), 0.0));
+}
+
+// What is left of the base under a sheen of this albedo, which may pass 1 (Conty-Kulla's does), seen from the view's side.
+fn receiver_material_weight(surface: MaterialSurface, sheen_albedo: f32) -> f32 {
+    if !VARIANT_SHEEN {
+        return 1.0;
+    }
+    switch surface.layering {
+        case MATERIAL_LAYERING_GLTF, MATERIAL_LAYERING_RECIPROCAL: {
+            return max(sheen_base_weight(surface.sheen_color, sheen_albedo), 0.0);
+        }
+        case MATERIAL_LAYERING_OPENPBR: {
+            return max(sheen_base_weight_openpbr(surface.sheen_weight, sheen_albedo), 0.0);
+        }
+        default: {
+            return surface.manual;
+        }
+    }
 }

@@ -55,6 +55,14 @@ struct SurfacesTexturedVarying {
     @location(5) t_world: vec4f,
     @location(6) tex_coords: vec4f,
     @location(7) @interpolate(perspective, centroid) color: vec4f,
+    // Tells triangles apart.
+    @location(8) @interpolate(flat) seed: u32,
+}
+
+// Radiance, and which of the pixel's samples get it.
+struct SurfacesCovered {
+    @location(0) radiance: vec4f,
+    @builtin(sample_mask) samples: u32,
 }
 
 fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying {
@@ -85,13 +93,14 @@ fn surfaces_vertex_textured(
     @location(4) tex_coord_1: vec2f,
     @location(5) color: vec4f,
     @builtin(instance_index) index: u32,
+    @builtin(vertex_index) vertex_index: u32,
 ) -> SurfacesTexturedVarying {
     let bare = surfaces_place(position, normal, index);
     let t_world = surfaces_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
     let side = tangent.w * surfaces_instances[index].handedness;
     return SurfacesTexturedVarying(
         bare.position, bare.p_from_origin, bare.n_world, bare.emission, bare.material, bare.n_world,
-        vec4f(t_world, side), vec4f(tex_coord_0, tex_coord_1), color,
+        vec4f(t_world, side), vec4f(tex_coord_0, tex_coord_1), color, vertex_index ^ coverage_hash(index),
     );
 }
 
@@ -112,10 +121,24 @@ fn surfaces_fragment_textured(
     in: SurfacesTexturedVarying,
     @builtin(front_facing) front_facing: bool,
 ) -> @location(0) vec4f {
+    return surfaces_covered(in, front_facing).radiance;
+}
+
+// For what is cut out, with more than one sample a pixel.
+@fragment
+fn surfaces_fragment_cutout(
+    in: SurfacesTexturedVarying,
+    @builtin(front_facing) front_facing: bool,
+) -> SurfacesCovered {
+    return surfaces_covered(in, front_facing);
+}
+
+fn surfaces_covered(in: SurfacesTexturedVarying, front_facing: bool) -> SurfacesCovered {
     let surface = material_textured(
-        in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color, in.position.xy,
+        in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color, in.position.xy, in.seed,
     );
-    return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing);
+    let p_world = surfaces_frame.origin + in.p_from_origin;
+    return SurfacesCovered(surfaces_radiance(surface, p_world, in.n_world, in.n_center, front_facing), surface.samples);
 }
 
 // The radiance of a surface's point, and its opacity where that counts.
@@ -131,11 +154,11 @@ fn surfaces_radiance(
         let unit = surfaces_normalize(n_center);
         let right = dpdx(unit);
         let down = dpdy(unit);
-        mu = surfaces_visible_mean(dot(normal, view), abs(dot(right, view)) + abs(dot(down, view)));
+        mu = filters_visible_mean(dot(normal, view), abs(dot(right, view)) + abs(dot(down, view)));
         let variance = 0.25 * (dot(right, right) + dot(down, down));
-        roughness = surfaces_filtered_roughness(roughness, variance, surface.normal_length);
+        roughness = filters_roughness(roughness, variance, surface.normal_length);
     }
-    if VARIANT_MASK && surface.opacity < surface.alpha_cutoff {
+    if VARIANT_MASK && surface.samples == 0u {
         discard;
     }
     let opacity = select(1.0, surface.opacity, VARIANT_BLEND);
@@ -174,19 +197,4 @@ fn surfaces_unlit(color: vec3f, opacity: f32) -> vec4f {
 // As the target holds it: opacity times radiance, kept finite, because blending turns infinities into NaN, and the share of the pixel that is lit.
 fn surfaces_stored(radiance: vec3f, opacity: f32) -> vec4f {
     return vec4f(opacity * min(surfaces_frame.gain * radiance, vec3f(SURFACES_GREATEST)), opacity);
-}
-
-// Over a pixel at a silhouette the cosine to the view runs through 0, and only its positive part is seen. A single sample there could be anything
-// up to the sheen's peak; this is the mean over the visible part of a pixel whose cosines span `width`.
-fn surfaces_visible_mean(mu: f32, width: f32) -> f32 {
-    let half_width = min(0.5 * width, 0.5);
-    return 0.5 * (max(mu - half_width, 0.0) + max(mu + half_width, 0.0));
-}
-
-// Normals that vary over a pixel widen the specular lobe (Tokuyoshi and Kaplanyan 2019, eqs. 4 and 5: the half vector's variance from
-// the normal's derivatives), as do those that a mipmap has averaged, whose mean is shorter than 1 (Toksvig 2005).
-fn surfaces_filtered_roughness(roughness: f32, variance: f32, mean_length: f32) -> f32 {
-    let mapped = 2.0 * (1.0 - mean_length) / max(mean_length, 0.5);
-    let alpha = roughness * roughness;
-    return sqrt(sqrt(min(alpha * alpha + min(variance + mapped, 0.18), 1.0)));
 }

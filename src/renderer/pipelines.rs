@@ -36,6 +36,7 @@ impl Pipelines {
         ];
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let [vertex, fragment] = match attributes.any {
+            true if look.mask && self.radiance.samples > 1 => ["surfaces_vertex_textured", "surfaces_fragment_cutout"],
             true => ["surfaces_vertex_textured", "surfaces_fragment_textured"],
             false => ["surfaces_vertex", "surfaces_fragment"],
         };

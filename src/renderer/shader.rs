@@ -10,6 +10,9 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/variant.wgsl"),
     // Textures, looked up.
     include_str!("../../shaders/passes/texels.wgsl"),
+    // What of a pixel is covered, and what shading is filtered over it.
+    include_str!("../../shaders/passes/coverage.wgsl"),
+    include_str!("../../shaders/passes/filters.wgsl"),
     // What a surface is made of.
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/prior_sheens.wgsl"),

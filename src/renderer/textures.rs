@@ -8,16 +8,15 @@ use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, Device, Queue, ShaderStages, TextureView};
 
 use super::materials::transforms;
-use crate::scene::{Encoding, Filter, Image, Level, Material, Sampler, Scene, TextureSlot, Wrap};
+use crate::scene::{
+    AlphaMode, Cutout, Encoding, Filter, Image, Level, Material, Sampler, Scene, Texture, TextureSlot, Wrap,
+};
 
 /// The most samples that a filter takes along the axis in which a texture is foreshortened.
 const ANISOTROPY: u16 = 8;
 
-/// The binding of the texture coordinates' transforms.
-const TRANSFORMS: u32 = 2 * TextureSlot::COUNT as u32;
-
 /// Group 1 of the surfaces' pass: for each slot a texture, for each a sampler, then the transforms of their
-/// coordinates.
+/// coordinates, then the shares of what the base colour cuts out, and their sampler.
 pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, BufferBindingType, SamplerBindingType, TextureSampleType, TextureViewDimension};
     let texture = BindingType::Texture {
@@ -27,15 +26,12 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     };
     let transforms =
         BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
-    let types = [texture, BindingType::Sampler(SamplerBindingType::Filtering), transforms];
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..=TRANSFORMS)
-        .map(|binding| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: ShaderStages::FRAGMENT,
-            ty: types[binding as usize / TextureSlot::COUNT],
-            count: None,
-        })
-        .collect();
+    let sampler = BindingType::Sampler(SamplerBindingType::Filtering);
+    let slots = TextureSlot::COUNT;
+    let types = [vec![texture; slots], vec![sampler; slots], vec![transforms, texture, sampler]].concat();
+    let entry =
+        |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None };
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..).zip(types).map(entry).collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
 }
 
@@ -61,52 +57,80 @@ struct Pool<'a> {
     queue: &'a Queue,
     scene: &'a Scene,
     white: TextureView,
-    /// By image and encoding.
-    textures: HashMap<(usize, Encoding), TextureView>,
+    textures: HashMap<Content, TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
+}
+
+/// What a texture on the device holds.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Content {
+    /// Index into `Scene::images`.
+    image: usize,
+    encoding: Encoding,
+    /// Where it holds shares: the bits of opacity and cutoff, and the sampler, of what cuts out.
+    cutout: Option<([u32; 2], Sampler)>,
+}
+
+impl Content {
+    fn of(slot: TextureSlot, texture: Texture) -> Self {
+        Self { image: texture.image, encoding: Encoding::of(slot), cutout: None }
+    }
+
+    /// The shares of what a base colour's texture cuts out, if it does.
+    fn shares(material: &Material, texture: Texture) -> Option<Self> {
+        let AlphaMode::Mask { cutoff } = material.alpha_mode else { return None };
+        let cutout = Some(([material.opacity, cutoff].map(f32::to_bits), texture.sampler));
+        Some(Self { cutout, ..Self::of(TextureSlot::BaseColor, texture) })
+    }
+
+    fn cutout(&self) -> Option<Cutout> {
+        let (bits, sampler) = self.cutout?;
+        let [opacity, cutoff] = bits.map(f32::from_bits);
+        Some(Cutout { opacity, cutoff, sampler })
+    }
 }
 
 impl<'a> Pool<'a> {
     fn new(device: &'a Device, queue: &'a Queue, scene: &'a Scene) -> Self {
         let image = Image { name: "white".to_owned(), width: 1, height: 1, texels: vec![[255; 4]] };
-        let white = upload(device, queue, &image, Encoding::Numbers);
+        let white = upload(device, queue, &image, Encoding::Numbers, None);
         Self { device, queue, scene, white, textures: HashMap::new(), samplers: HashMap::new() }
     }
 
     fn bind_group(&mut self, layout: &BindGroupLayout, material: &Material) -> BindGroup {
-        for slot in TextureSlot::ALL {
-            let texture = material.texture(slot).map(|texture| self.scene.textures[texture.texture]);
-            let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
+        let textures = TextureSlot::ALL.map(|slot| Some(self.scene.textures[material.texture(slot)?.texture]));
+        let base = textures[TextureSlot::BaseColor as usize];
+        let shares = base.and_then(|texture| Content::shares(material, texture));
+        let contents = TextureSlot::ALL.map(|slot| Some(Content::of(slot, textures[slot as usize]?)));
+        for content in contents.into_iter().chain([shares]).flatten() {
+            let image = &self.scene.images[content.image];
+            let make = || upload(self.device, self.queue, image, content.encoding, content.cutout());
+            self.textures.entry(content).or_insert_with(make);
+        }
+        let mut plain = textures.map(|texture| texture.map_or(Sampler::DEFAULT, |texture| texture.sampler));
+        let base = &mut plain[TextureSlot::BaseColor as usize];
+        let smooth = Sampler { wrap: base.wrap, ..Sampler::DEFAULT };
+        if shares.is_some() {
+            // Of what is cut out only the image itself is looked up so, which some drivers blur where they filter along an axis.
+            *base = Sampler { minify: base.magnify, mipmaps: None, ..*base };
+        }
+        for sampler in plain.into_iter().chain([smooth]) {
             self.samplers.entry(sampler).or_insert_with(|| make_sampler(self.device, &sampler));
-            if let Some(texture) = texture {
-                let (image, encoding) = (&self.scene.images[texture.image], Encoding::of(slot));
-                let make = || upload(self.device, self.queue, image, encoding);
-                self.textures.entry((texture.image, encoding)).or_insert_with(make);
-            }
         }
         let transforms = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("material"),
             contents: bytemuck::cast_slice(&transforms(material)),
             usage: wgpu::BufferUsages::UNIFORM,
         });
-        let transforms = wgpu::BindGroupEntry { binding: TRANSFORMS, resource: transforms.as_entire_binding() };
-        let entries: Vec<wgpu::BindGroupEntry> = TextureSlot::ALL
-            .into_iter()
-            .flat_map(|slot| {
-                let texture = material.texture(slot).map(|texture| self.scene.textures[texture.texture]);
-                let view = texture.map_or(&self.white, |texture| &self.textures[&(texture.image, Encoding::of(slot))]);
-                let sampler = texture.map_or(Sampler::DEFAULT, |texture| texture.sampler);
-                let binding = slot as u32;
-                [
-                    wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) },
-                    wgpu::BindGroupEntry {
-                        binding: binding + TextureSlot::COUNT as u32,
-                        resource: wgpu::BindingResource::Sampler(&self.samplers[&sampler]),
-                    },
-                ]
-            })
-            .chain([transforms])
-            .collect();
+        let view = |content: Option<Content>| {
+            wgpu::BindingResource::TextureView(content.map_or(&self.white, |content| &self.textures[&content]))
+        };
+        let sampler = |sampler| wgpu::BindingResource::Sampler(&self.samplers[&sampler]);
+        let resources = contents.into_iter().map(view).chain(plain.map(sampler));
+        // How much is there is always filtered, whatever the file says of smaller sizes.
+        let resources = resources.chain([transforms.as_entire_binding(), view(shares), sampler(smooth)]);
+        let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+        let entries: Vec<wgpu::BindGroupEntry> = (0..).zip(resources).map(entry).collect();
         let label = Some("material");
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label, layout, entries: &entries })
     }
@@ -142,7 +166,7 @@ fn make_sampler(device: &Device, sampler: &Sampler) -> wgpu::Sampler {
 }
 
 /// The image with all its mipmaps, without the sizes that are too large for the device.
-fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> TextureView {
+fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding, cutout: Option<Cutout>) -> TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let mut base = Level { size: [image.width, image.height], texels: Cow::Borrowed(&image.texels) };
     if encoding == Encoding::Normals {
@@ -151,25 +175,30 @@ fn upload(device: &Device, queue: &Queue, image: &Image, encoding: Encoding) -> 
     while base.size.iter().any(|side| *side > limit) {
         base = base.halved(encoding);
     }
-    let count = u32::BITS - base.size[0].max(base.size[1]).leading_zeros();
+    let levels = match cutout {
+        Some(cutout) => cutout.levels(&base),
+        None => {
+            let next = |level: &Level| (level.size != [1, 1]).then(|| level.halved(encoding));
+            let halves: Vec<Level> = std::iter::successors(next(&base), next).collect();
+            std::iter::once(base).chain(halves).collect()
+        }
+    };
     let extent = |[width, height]: [u32; 2]| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(&image.name),
-        size: extent(base.size),
-        mip_level_count: count,
+        size: extent(levels[0].size),
+        mip_level_count: levels.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: format(encoding),
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    let mut level = base;
-    for mip_level in 0..count {
+    for (mip_level, level) in (0..).zip(&levels) {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * level.size[0]), rows_per_image: None };
         let target = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
         queue.write_texture(target, level.texels.as_flattened(), layout, extent(level.size));
-        level = level.halved(encoding);
     }
     // Frees what was staged after each texture.
     queue.submit([]);

@@ -31,13 +31,18 @@ impl Encoding {
         }
     }
 
-    /// What a texel adds to a mean; `linear` is [`Self::decode`] of each byte.
-    fn addend(self, [r, g, b, a]: [u8; 4], linear: &[f32; 256]) -> Vec4 {
+    /// What a texel adds to a mean; `linear` is [`Self::decoded`].
+    pub(super) fn addend(self, [r, g, b, a]: [u8; 4], linear: &[f32; 256]) -> Vec4 {
         let [r, g, b] = [r, g, b].map(|byte| linear[usize::from(byte)]);
         match self {
             Self::Colors | Self::Numbers => Vec4::new(r, g, b, a.into()),
             Self::Normals => (length_from(a) * Vec3::new(r, g, b).normalize_or(Vec3::Z)).extend(0.0),
         }
+    }
+
+    /// What each byte stands for.
+    pub(super) fn decoded(self) -> [f32; 256] {
+        std::array::from_fn(|byte| self.decode(byte as u8))
     }
 
     fn decode(self, byte: u8) -> f32 {
@@ -48,7 +53,8 @@ impl Encoding {
         }
     }
 
-    fn encode(self, mean: Vec4) -> [u8; 4] {
+    /// The texel of a mean.
+    pub(super) fn encode(self, mean: Vec4) -> [u8; 4] {
         let rounded = |value: f32| (value + 0.5) as u8;
         let (vector, alpha) = (mean.truncate(), mean.w);
         let (vector, alpha) = match self {
@@ -81,7 +87,7 @@ impl Level<'_> {
     /// The next mipmap: half the size, rounded down but at least 1 texel a side, each texel the mean of the area that
     /// it covers.
     pub fn halved(&self, encoding: Encoding) -> Level<'static> {
-        let linear: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as u8));
+        let linear = encoding.decoded();
         let addend = |at: usize| encoding.addend(self.texels[at], &linear);
         let (size, texels) = halved(self.size, addend, |mean| encoding.encode(mean));
         Level { size, texels: Cow::Owned(texels) }

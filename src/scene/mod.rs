@@ -9,6 +9,7 @@ mod bounds;
 mod camera;
 mod clusters;
 mod convex_parts;
+mod cutout;
 mod drawn;
 mod edits;
 mod emission;
@@ -41,6 +42,7 @@ use glam::DVec3;
 
 pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
+pub use cutout::Cutout;
 pub use drawn::Drawn;
 pub use edits::{CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select};
 pub use error::SceneError;

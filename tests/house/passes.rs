@@ -9,13 +9,15 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 10] = [
+pub const FLOORS: [&[&str]; 11] = [
     // What people copy.
     &["ltc", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
     // Textures, looked up.
     &["passes/texels"],
+    // What of a pixel is covered, and how shading is filtered over it.
+    &["passes/coverage", "passes/filters"],
     // What a surface is made of; sheens of prior work.
     &["passes/material", "passes/prior_sheens"],
     // How a surface scatters light.

@@ -2,7 +2,7 @@
 
 use glam::{Affine2, Mat4, Vec2, Vec3, Vec4};
 use velour::renderer::Offscreen;
-use velour::scene::{Camera, Drawn, Edits, Projection, TextureSlot};
+use velour::scene::{AlphaMode, Camera, Drawn, Edits, Material, Projection, TextureSlot};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear};
@@ -12,8 +12,22 @@ use super::textures::{floor, textured};
 /// Beside a triangle that is seen edge-on, texture coordinates change from pixel to pixel by millions of textures.
 #[test]
 fn textures_seen_edge_on_take_no_longer_than_others() {
-    let mut scene = floor(plain());
-    textured(&mut scene, TextureSlot::BaseColor, [256, 256], vec![[200, 100, 50, 255]; 256 * 256]);
+    seen_edge_on(AlphaMode::Opaque);
+}
+
+#[test]
+fn cut_out_textures_seen_edge_on_take_no_longer_than_others() {
+    seen_edge_on(AlphaMode::Mask { cutoff: 0.5 });
+}
+
+fn seen_edge_on(alpha_mode: AlphaMode) {
+    let mut scene = floor(Material { alpha_mode, ..plain() });
+    textured(
+        &mut scene,
+        TextureSlot::BaseColor,
+        [256, 256],
+        [[200, 100, 50, 255], [200, 100, 50, 0]].repeat(128 * 256),
+    );
     let mesh = &mut scene.meshes[0];
     (mesh.positions, mesh.tex_coords[0]) = (Vec::new(), Vec::new());
     for index in 0..20_000 {

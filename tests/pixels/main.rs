@@ -8,6 +8,7 @@ mod command;
 mod comments;
 mod compare;
 mod comparison;
+mod coverage;
 mod documented;
 mod edge_on;
 mod embedded;

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use serde_json::Value;
 use velour::picture::{LinearImage, Picture};
 use velour::renderer::{Gpu, Offscreen, RadianceFormat, device};
-use velour::scene::{Drawn, Edits, Scene, TextureSlot};
+use velour::scene::{AlphaMode, Drawn, Edits, Scene, TextureSlot};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE};
@@ -87,6 +87,19 @@ fn textures_and_all_lobes() {
     hold(&found.pixels, &expected.pixels, bits, "a rich floor");
     let brighter: Vec<[f32; 3]> = found.pixels.iter().map(|pixel| pixel.map(|value| 1.003 * value)).collect();
     assert!(off(&brighter, &expected.pixels, bits) > brighter.len() / 10, "0.3% more light is not seen");
+}
+
+/// What is cut out by one sample a pixel is the same everywhere.
+#[test]
+fn cut_outs() {
+    let mut scene = rich_scene();
+    scene.materials[0].alpha_mode = AlphaMode::Mask { cutoff: 0.5 };
+    let image = scene.materials[0].textures[TextureSlot::BaseColor as usize].unwrap().texture;
+    scene.images[scene.textures[image].image].texels.iter_mut().step_by(3).for_each(|texel| texel[3] = 20);
+    let ((found, bits), (expected, _)) = (linear(&GL, &scene), linear(&GPU, &scene));
+    hold(&found.pixels, &expected.pixels, bits, "a rich floor with holes");
+    let (whole, _) = linear(&GL, &rich_scene());
+    assert!(off(&whole.pixels, &expected.pixels, bits) > whole.pixels.len() / 10, "the holes are not seen");
 }
 
 /// By the binary, which finds the adapter by what it prints; prior work's sheens need a table that is drawn.

@@ -8,8 +8,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x < arrayLength(&results) {
         let given = inputs[id.x];
         results[id.x] = vec2f(
-            surfaces_visible_mean(given.x, given.y),
-            surfaces_filtered_roughness(given.x, given.y, given.z),
+            filters_visible_mean(given.x, given.y),
+            filters_roughness(given.x, given.y, given.z),
         );
     }
 }
