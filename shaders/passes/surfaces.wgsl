@@ -68,7 +68,7 @@ struct SurfacesCovered {
 fn surfaces_place(position: vec3f, normal: vec3f, index: u32) -> SurfacesVarying {
     let p_world = surfaces_instances[index].world_from_mesh * vec4f(position, 1.0);
     // Unit length before interpolation, whatever the transform's scale.
-    let n_world = surfaces_normalize(surfaces_instances[index].normal_from_mesh * normal);
+    let n_world = filters_normalize(surfaces_instances[index].normal_from_mesh * normal);
     let clip = surfaces_frame.clip_from_world * p_world;
     return SurfacesVarying(
         clip, p_world.xyz - surfaces_frame.origin, n_world, surfaces_instances[index].emission, surfaces_instances[index].material, n_world,
@@ -96,7 +96,7 @@ fn surfaces_vertex_textured(
     @builtin(vertex_index) vertex_index: u32,
 ) -> SurfacesTexturedVarying {
     let bare = surfaces_place(position, normal, index);
-    let t_world = surfaces_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
+    let t_world = filters_normalize((surfaces_instances[index].world_from_mesh * vec4f(tangent.xyz, 0.0)).xyz);
     let side = tangent.w * surfaces_instances[index].handedness;
     return SurfacesTexturedVarying(
         bare.position, bare.p_from_origin, bare.n_world, bare.emission, bare.material, bare.n_world,
@@ -104,60 +104,58 @@ fn surfaces_vertex_textured(
     );
 }
 
-// A zero vector, which no direction stands for, comes back as it is.
-fn surfaces_normalize(v: vec3f) -> vec3f {
-    let length_squared = dot(v, v);
-    return v * select(0.0, inverseSqrt(length_squared), length_squared > 0.0);
-}
-
 @fragment
 fn surfaces_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
-    let surface = material_plain(in.material, in.emission, in.n_world);
-    return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing);
+    return surfaces_plain(in, front_facing, 1u);
 }
 
 @fragment
-fn surfaces_fragment_textured(
-    in: SurfacesTexturedVarying,
-    @builtin(front_facing) front_facing: bool,
+fn surfaces_fragment_textured(in: SurfacesTexturedVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    return surfaces_covered(in, front_facing, 1u).radiance;
+}
+
+// With more than one sample a pixel: naga's GLSL has no word for those that are covered, and OpenGL draws one.
+@fragment
+fn surfaces_multisampled(in: SurfacesVarying, @builtin(front_facing) front_facing: bool, @builtin(sample_mask) samples: u32) -> @location(0) vec4f {
+    return surfaces_plain(in, front_facing, samples);
+}
+
+@fragment
+fn surfaces_multisampled_textured(
+    in: SurfacesTexturedVarying, @builtin(front_facing) front_facing: bool, @builtin(sample_mask) samples: u32,
 ) -> @location(0) vec4f {
-    return surfaces_covered(in, front_facing).radiance;
+    return surfaces_covered(in, front_facing, samples).radiance;
 }
 
-// For what is cut out, with more than one sample a pixel.
+// The same of what is cut out.
 @fragment
-fn surfaces_fragment_cutout(
-    in: SurfacesTexturedVarying,
-    @builtin(front_facing) front_facing: bool,
-) -> SurfacesCovered {
-    return surfaces_covered(in, front_facing);
+fn surfaces_multisampled_cutout(in: SurfacesTexturedVarying, @builtin(front_facing) front_facing: bool, @builtin(sample_mask) samples: u32) -> SurfacesCovered {
+    return surfaces_covered(in, front_facing, samples);
 }
 
-fn surfaces_covered(in: SurfacesTexturedVarying, front_facing: bool) -> SurfacesCovered {
+fn surfaces_plain(in: SurfacesVarying, front_facing: bool, samples: u32) -> vec4f {
+    let surface = material_plain(in.material, in.emission, in.n_world);
+    return surfaces_radiance(surface, surfaces_frame.origin + in.p_from_origin, in.n_world, in.n_center, front_facing, samples);
+}
+
+fn surfaces_covered(in: SurfacesTexturedVarying, front_facing: bool, samples: u32) -> SurfacesCovered {
     let surface = material_textured(
         in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color, in.position.xy, in.seed,
     );
     let p_world = surfaces_frame.origin + in.p_from_origin;
-    return SurfacesCovered(surfaces_radiance(surface, p_world, in.n_world, in.n_center, front_facing), surface.samples);
+    let radiance = surfaces_radiance(surface, p_world, in.n_world, in.n_center, front_facing, samples);
+    return SurfacesCovered(radiance, surface.samples);
 }
 
-// The radiance of a surface's point, and its opacity where that counts.
+// The radiance of what a pixel shows of a surface, of which it covers `samples`, and its opacity where that counts.
 fn surfaces_radiance(
-    surface: MaterialSurface, p_world: vec3f, n_world: vec3f, n_center: vec3f, front_facing: bool,
+    surface: MaterialSurface, p_world: vec3f, n_world: vec3f, n_center: vec3f, front_facing: bool, samples: u32,
 ) -> vec4f {
-    let view = surfaces_normalize(surfaces_frame.eye.xyz - surfaces_frame.eye.w * p_world);
     let side = select(-1.0, 1.0, front_facing);
-    let normal = side * surfaces_normalize(surface.normal);
-    var mu = max(dot(normal, view), 0.0);
-    var roughness = surface.roughness;
-    if VARIANT_FILTERED {
-        let unit = surfaces_normalize(n_center);
-        let right = dpdx(unit);
-        let down = dpdy(unit);
-        mu = filters_visible_mean(dot(normal, view), abs(dot(right, view)) + abs(dot(down, view)));
-        let variance = 0.25 * (dot(right, right) + dot(down, down));
-        roughness = filters_roughness(roughness, variance, surface.normal_length);
-    }
+    let normal = side * filters_normalize(surface.normal);
+    let smooth_normal = side * filters_normalize(n_world);
+    let view = filters_normalize(surfaces_frame.eye.xyz - surfaces_frame.eye.w * p_world);
+    let pixel = filters_pixel(n_center, view, surface.roughness, samples);
     if VARIANT_MASK && surface.samples == 0u {
         discard;
     }
@@ -165,27 +163,29 @@ fn surfaces_radiance(
     if VARIANT_UNLIT {
         return surfaces_unlit(surfaces_frame.emission * surface.base_color, opacity);
     }
-    let lobes = lobes_at(roughness, surface.sheen_alpha, mu);
-    let smooth_normal = side * surfaces_normalize(n_world);
-    let receiver = receiver_at(p_world, normal, smooth_normal, view, mu, surface, lobes);
-    var specular = vec3f(0.0);
-    var diffuse = (1.0 - surface.metallic) * surface.base_color;
-    if VARIANT_SPECULAR {
-        // Tints may be greater than 1.
-        let dielectric_f0 = min(surface.f0, vec3f(surface.f90));
-        let f0 = mix(dielectric_f0, surface.base_color, surface.metallic);
-        let f90 = vec3f(mix(surface.f90, 1.0, surface.metallic));
-        specular = surfaces_frame.specular * ggx_albedo(lobes.specular, f0, f90);
-        diffuse *= ggx_base_weight(ggx_albedo(lobes.specular, dielectric_f0, vec3f(surface.f90)));
+    let weights = ShadingWeights(surfaces_frame.diffuse, surfaces_frame.specular, surfaces_frame.sheen, surfaces_frame.ambient);
+    var point = ShadingPoint(p_world, normal, smooth_normal, view, max(dot(normal, view), 0.0), surface.roughness);
+    if VARIANT_FILTERED {
+        point.mu = filters_visible_mean(dot(normal, view), pixel.width);
+        point.roughness = filters_roughness(surface.roughness, pixel.variance, surface.normal_length);
     }
-    diffuse *= surfaces_frame.diffuse;
-    let reflected = surface.sheen_color * lobes.sheen.albedo * surfaces_frame.sheen;
-    let incident = lights_incident(receiver);
-    let ambient = lights_ambient(receiver) * surface.occlusion * surfaces_frame.ambient;
-    let radiance = surfaces_frame.emission * surface.emission
-        + diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
-        + reflected * (incident.sheen + surface.occlusion * surfaces_frame.ambient);
-    return surfaces_stored(radiance, opacity);
+    var sum = vec3f(0.0);
+    var count = 0.0;
+    for (var index = 0u; index < pixel.end; index++) {
+        if pixel.end > 1u {
+            // From the centroid's normal to that of a sample.
+            let at_sample = surface.normal + (n_center - n_world) + filters_offset(pixel, index);
+            point.normal = side * filters_normalize(at_sample);
+            let cosine = dot(point.normal, view);
+            if !filters_covers(samples, index) || cosine <= 0.0 {
+                continue;
+            }
+            point.mu = filters_visible_mean(cosine, pixel.width);
+        }
+        sum += shading_reflected(surface, point, weights);
+        count += 1.0;
+    }
+    return surfaces_stored(surfaces_frame.emission * surface.emission + sum / max(count, 1.0), opacity);
 }
 
 // As the target holds what is shown as it is: without gain, and 0 for the share of the pixel that is lit. Where it is blended, its opacity is

@@ -35,10 +35,13 @@ impl Pipelines {
             ("SURFACES_GREATEST", self.radiance.greatest()),
         ];
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let [vertex, fragment] = match attributes.any {
-            true if look.mask && self.radiance.samples > 1 => ["surfaces_vertex_textured", "surfaces_fragment_cutout"],
-            true => ["surfaces_vertex_textured", "surfaces_fragment_textured"],
-            false => ["surfaces_vertex", "surfaces_fragment"],
+        let vertex = if attributes.any { "surfaces_vertex_textured" } else { "surfaces_vertex" };
+        let fragment = match (attributes.any, self.radiance.samples > 1) {
+            (false, false) => "surfaces_fragment",
+            (true, false) => "surfaces_fragment_textured",
+            (false, true) => "surfaces_multisampled",
+            (true, true) if look.mask => "surfaces_multisampled_cutout",
+            (true, true) => "surfaces_multisampled_textured",
         };
         let layouts = vertex_layouts(attributes);
         let blend = look.blend.then_some(if look.unlit { OVER_UNLIT } else { OVER });

@@ -23,6 +23,8 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/points.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
+    // All of it together.
+    include_str!("../../shaders/passes/shading.wgsl"),
     // Entry points.
     include_str!("../../shaders/passes/surfaces.wgsl"),
     include_str!("../../shaders/passes/prior_albedos.wgsl"),

@@ -9,15 +9,17 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 11] = [
+pub const FLOORS: [&[&str]; 13] = [
     // What people copy.
     &["ltc", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
     // Textures, looked up.
     &["passes/texels"],
-    // What of a pixel is covered, and how shading is filtered over it.
-    &["passes/coverage", "passes/filters"],
+    // What of a pixel is covered,
+    &["passes/coverage"],
+    // and how shading is filtered over it.
+    &["passes/filters"],
     // What a surface is made of; sheens of prior work.
     &["passes/material", "passes/prior_sheens"],
     // How a surface scatters light.
@@ -30,6 +32,8 @@ pub const FLOORS: [&[&str]; 11] = [
     &["passes/points"],
     // What all lights send there.
     &["passes/lights"],
+    // All of it together.
+    &["passes/shading"],
     // Entry points.
     &["passes/surfaces", "passes/prior_albedos"],
 ];

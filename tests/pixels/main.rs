@@ -29,6 +29,7 @@ mod run;
 mod screenshot;
 mod sheen_models;
 mod shown;
+mod silhouettes;
 mod stage;
 mod state;
 mod tables;

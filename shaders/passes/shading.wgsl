@@ -1,0 +1,45 @@
+// A point's radiance towards the eye, from all lobes and all lights.
+
+// Weights, 0 or 1, of the lobes, and the radiance that arrives from everywhere.
+struct ShadingWeights {
+    diffuse: f32,
+    specular: f32,
+    sheen: f32,
+    ambient: vec3f,
+}
+
+// A point of a surface, seen along `view`.
+struct ShadingPoint {
+    p_world: vec3f,
+    // Unit, on the side that is seen; smooth_normal is without the normal map.
+    normal: vec3f,
+    smooth_normal: vec3f,
+    view: vec3f,
+    // Takes the place of the view's cosine.
+    mu: f32,
+    roughness: f32,
+}
+
+// What the point scatters of the light that arrives there.
+fn shading_reflected(surface: MaterialSurface, point: ShadingPoint, weights: ShadingWeights) -> vec3f {
+    let lobes = lobes_at(point.roughness, surface.sheen_alpha, point.mu);
+    let receiver = receiver_at(
+        point.p_world, point.normal, point.smooth_normal, point.view, point.mu, surface, lobes,
+    );
+    var specular = vec3f(0.0);
+    var diffuse = (1.0 - surface.metallic) * surface.base_color;
+    if VARIANT_SPECULAR {
+        // Tints may be greater than 1.
+        let dielectric_f0 = min(surface.f0, vec3f(surface.f90));
+        let f0 = mix(dielectric_f0, surface.base_color, surface.metallic);
+        let f90 = vec3f(mix(surface.f90, 1.0, surface.metallic));
+        specular = weights.specular * ggx_albedo(lobes.specular, f0, f90);
+        diffuse *= ggx_base_weight(ggx_albedo(lobes.specular, dielectric_f0, vec3f(surface.f90)));
+    }
+    diffuse *= weights.diffuse;
+    let reflected = surface.sheen_color * lobes.sheen.albedo * weights.sheen;
+    let incident = lights_incident(receiver);
+    let ambient = lights_ambient(receiver) * surface.occlusion * weights.ambient;
+    return diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
+        + reflected * (incident.sheen + surface.occlusion * weights.ambient);
+}
