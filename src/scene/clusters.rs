@@ -78,7 +78,8 @@ impl Parts {
     fn merge(&mut self, one: usize, other: usize) {
         let triangles = std::mem::take(&mut self.triangles[other]);
         self.triangles[one].extend(triangles);
-        self.areas[one] = self.areas[one] + std::mem::take(&mut self.areas[other]);
+        let area = std::mem::take(&mut self.areas[other]);
+        self.areas[one] += area;
         for neighbour in std::mem::take(&mut self.neighbours[other]) {
             self.neighbours[neighbour].remove(&other);
             if neighbour != one {
