@@ -16,14 +16,13 @@ struct FiltersPixel {
     variance: f32,
     // What the cosines to the view span.
     width: f32,
-    // 4 where samples are shaded one by one, else 1.
-    end: u32,
+    // Whether samples are shaded one by one.
+    is_sharp: bool,
 }
 
 // `samples` has a bit for each that is covered. A single one is the centroid.
 fn filters_pixel(n_center: vec3f, view: vec3f, roughness: f32, samples: u32) -> FiltersPixel {
     var pixel: FiltersPixel;
-    pixel.end = 1u;
     if VARIANT_FILTERED {
         pixel.right = dpdx(n_center);
         pixel.down = dpdy(n_center);
@@ -33,9 +32,9 @@ fn filters_pixel(n_center: vec3f, view: vec3f, roughness: f32, samples: u32) -> 
         pixel.width = abs(dot(right, view)) + abs(dot(down, view));
         pixel.variance = 0.25 * (dot(right, right) + dot(down, down));
         let squared = roughness * roughness * roughness * roughness;
-        if VARIANT_SPECULAR && pixel.variance > FILTERS_SHARP * squared + FILTERS_FLAT {
+        if VARIANT_SHARP && pixel.variance > FILTERS_SHARP * squared + FILTERS_FLAT {
             pixel.variance = min(FILTERS_LEFT * pixel.variance, squared);
-            pixel.end = select(1u, 4u, countOneBits(samples & COVERAGE_ALL) > 1u);
+            pixel.is_sharp = countOneBits(samples & COVERAGE_ALL) > 1u;
         }
     }
     return pixel;

@@ -43,3 +43,35 @@ fn shading_reflected(surface: MaterialSurface, point: ShadingPoint, weights: Sha
     return diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
         + reflected * (incident.sheen + surface.occlusion * weights.ambient);
 }
+
+// What a pixel shows of it: shaded at the centroid, or the mean of what the covered samples scatter that are seen from the front. `n_center` is
+// the normal at the pixel's centre, not of unit length, and `side` turns it to the side that is seen.
+fn shading_pixel(
+    surface: MaterialSurface, centroid: ShadingPoint, weights: ShadingWeights, n_center: vec3f, side: f32,
+    pixel: FiltersPixel, samples: u32,
+) -> vec3f {
+    if !VARIANT_SHARP {
+        return shading_reflected(surface, centroid, weights);
+    }
+    var point = centroid;
+    var sum = vec3f(0.0);
+    var count = 0.0;
+    var index = 0u;
+    // Left at its end: software drivers run a loop's body to there, whatever is left to do.
+    loop {
+        var weight = 1.0;
+        if pixel.is_sharp {
+            point.normal = side * filters_normalize(n_center + filters_offset(pixel, index));
+            let cosine = dot(point.normal, point.view);
+            point.mu = filters_visible_mean(cosine, pixel.width);
+            weight = select(0.0, 1.0, filters_covers(samples, index) && cosine > 0.0);
+        }
+        sum += weight * shading_reflected(surface, point, weights);
+        count += weight;
+        continuing {
+            index++;
+            break if !pixel.is_sharp || index == 4u;
+        }
+    }
+    return sum / max(count, 1.0);
+}

@@ -169,23 +169,10 @@ fn surfaces_radiance(
         point.mu = filters_visible_mean(dot(normal, view), pixel.width);
         point.roughness = filters_roughness(surface.roughness, pixel.variance, surface.normal_length);
     }
-    var sum = vec3f(0.0);
-    var count = 0.0;
-    for (var index = 0u; index < pixel.end; index++) {
-        if pixel.end > 1u {
-            // From the centroid's normal to that of a sample.
-            let at_sample = surface.normal + (n_center - n_world) + filters_offset(pixel, index);
-            point.normal = side * filters_normalize(at_sample);
-            let cosine = dot(point.normal, view);
-            if !filters_covers(samples, index) || cosine <= 0.0 {
-                continue;
-            }
-            point.mu = filters_visible_mean(cosine, pixel.width);
-        }
-        sum += shading_reflected(surface, point, weights);
-        count += 1.0;
-    }
-    return surfaces_stored(surfaces_frame.emission * surface.emission + sum / max(count, 1.0), opacity);
+    // From the centroid's normal to that of the centre.
+    let normal_at_center = surface.normal + (n_center - n_world);
+    let reflected = shading_pixel(surface, point, weights, normal_at_center, side, pixel, samples);
+    return surfaces_stored(surfaces_frame.emission * surface.emission + reflected, opacity);
 }
 
 // As the target holds what is shown as it is: without gain, and 0 for the share of the pixel that is lit. Where it is blended, its opacity is

@@ -19,5 +19,7 @@ override VARIANT_QUADS: bool = true;
 override VARIANT_POLYGONS: bool = true;
 override VARIANT_PUNCTUAL: bool = true;
 
+// The specular lobe may be narrower than what normals vary over a pixel, which is then shaded sample by sample.
+override VARIANT_SHARP: bool = true;
 // Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.
 override VARIANT_FILTERED: bool = true;

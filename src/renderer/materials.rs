@@ -33,6 +33,8 @@ pub(super) struct Look {
     /// `VARIANT_SHEEN_MODEL` of `variant.wgsl`: 0 where the integral over the lights has a closed form.
     pub sheen_model: u32,
     pub specular: bool,
+    /// Whether the specular lobe may be narrow.
+    pub sharp: bool,
     pub reciprocal: bool,
     pub unlit: bool,
     pub mask: bool,
@@ -42,6 +44,9 @@ pub(super) struct Look {
     /// Bit k: slot k's texture counts.
     pub textures: u16,
 }
+
+/// The base's roughness from which on the specular lobe is wider than what normals vary over most pixels.
+const DULL: f32 = 0.5;
 
 impl Look {
     /// What a material as it is drawn needs.
@@ -58,11 +63,12 @@ impl Look {
                 }
         };
         let textures = TextureSlot::ALL.into_iter().filter(|slot| counts(*slot));
+        let specular = metallic || material.dielectric_f0() != Vec3::ZERO || material.specular > 0.0;
         Self {
             sheen: sheen.is_some() && !material.unlit,
             sheen_model: sheen.filter(|_| !material.unlit).map_or(0, |sheen| model_number(sheen.model)),
-            specular: (metallic || material.dielectric_f0() != Vec3::ZERO || material.specular > 0.0)
-                && !material.unlit,
+            specular: specular && !material.unlit,
+            sharp: specular && !material.unlit && (material.roughness < DULL || counts(TextureSlot::MetallicRoughness)),
             reciprocal: sheen.is_some_and(|sheen| sheen.layering == Layering::Reciprocal),
             unlit: material.unlit,
             mask: matches!(material.alpha_mode, AlphaMode::Mask { .. }),

@@ -30,6 +30,7 @@ impl Pipelines {
             ("VARIANT_QUADS", number(lights.quads)),
             ("VARIANT_POLYGONS", number(lights.polygons)),
             ("VARIANT_PUNCTUAL", number(lights.punctual)),
+            ("VARIANT_SHARP", number(look.sharp && self.radiance.samples > 1)),
             ("VARIANT_FILTERED", number(self.radiance.samples > 1)),
             ("PRIOR_SHEENS_NODES", f64::from(NODES)),
             ("SURFACES_GREATEST", self.radiance.greatest()),

@@ -110,7 +110,7 @@ fn glossy_balls_have_no_grey_rim() {
 
 /// No pixel of a dusty scene is brighter than all of its 64 samples.
 #[test]
-fn dusty_silhouettes_have_no_bright_dots() {
+fn dusty_silhouettes_are_no_brighter_than_their_samples() {
     let scene = gltf::load(&root().join("assets/dust.glb"), &gltf::Options::default()).unwrap();
     for alpha in [0.4, 0.6, 1.0] {
         let (edits, size) = (changed(Some(alpha), None, Edits::default()), [320, 180]);
