@@ -104,15 +104,16 @@ fn pictures_that_show_next_to_nothing_say_so() {
     for command in ["render", "reference --spp 1"] {
         for (scene, hint) in [("bright", "past white: try --exposure -1"), ("dark", "is black: try --exposure 1")] {
             let run = |flags: &str| {
-                bench.run(&format!("{command} {scene}.glb -o a.png --size 96x54 --lights-visible off {flags}"))
+                bench
+                    .run(&format!("{command} {scene}.glb -o a.png --size 96x54 --lights-visible off --rig off {flags}"))
             };
             let said = run("");
             assert!(said.stderr.contains(hint) && said.stderr.lines().count() == 1, "{command} {scene}: {said:?}");
             assert!(said.stderr.contains(" or --exposure auto"), "{said:?}");
             assert_eq!(run("--exposure auto").stderr, "", "{command} {scene}");
-            assert_eq!(bench.run(&format!("{command} {scene}.glb -o a.exr --size 96x54")).stderr, "");
+            assert_eq!(bench.run(&format!("{command} {scene}.glb -o a.exr --size 96x54 --rig off")).stderr, "");
         }
-        let said = bench.run(&format!("{command} away.glb -o a.png --size 96x54"));
+        let said = bench.run(&format!("{command} away.glb -o a.png --size 96x54 --rig off"));
         assert!(
             said.stderr.contains("the picture is black at any exposure") && said.stderr.contains("--ambient"),
             "{said:?}"
