@@ -104,6 +104,8 @@ fn step(size: f64) -> f32 {
 mod tests {
     use super::*;
 
+    /// On the scene that comes with the command line.
+    #[cfg(feature = "cli")]
     #[test]
     fn an_automatic_exposure_is_the_metered_one_until_another_is_asked_for() {
         let edits = |exposure| Edits { exposure, ..Edits::default() };
