@@ -172,15 +172,10 @@ impl<'a> Surface<'a> {
 
     /// The mean over a triangle, from so many points.
     fn mean(&self, triangle: &[u32; 3], points: u32) -> Seen {
-        // The sequence of the plastic number (M. Roberts 2018); its first point is the middle.
-        const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
         let emission = self.emission.as_ref().map(|layer| (layer, layer.corners(triangle)));
         let opacity = self.opacity.as_ref().map(|layer| (layer, layer.corners(triangle)));
         let sum = (0..points).fold(Seen::NOTHING, |sum, point| {
-            let at = (DVec2::splat(0.5) + f64::from(point) * STEP).fract();
-            // Points beyond the unit square's diagonal are folded back into the triangle below it.
-            let at = if at.x + at.y > 1.0 { 1.0 - at } else { at };
-            let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { at };
+            let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { spread(point) };
             let uv = |[a, b, c]: [DVec2; 3]| a + at.x * (b - a) + at.y * (c - a);
             let emission = emission.as_ref().map_or(DVec3::ONE, |(layer, corners)| {
                 let Linear { size, texels } = &layer.texels;
@@ -252,6 +247,14 @@ impl<'a, Texels: Sync> Layer<'a, Texels> {
 fn density(texels: usize, covered: f64) -> f64 {
     let density = (POINTS * texels as f64).max(POINTS_MIN / covered);
     if texels > 1 && density.is_finite() { density } else { 0.0 }
+}
+
+/// Points of a low-discrepancy sequence in a triangle, as shares of its edges from the first corner: that of the plastic
+/// number (M. Roberts 2018), folded back from beyond the unit square's diagonal. The first is the middle of the third edge.
+pub(super) fn spread(index: u32) -> DVec2 {
+    const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
+    let at = (DVec2::splat(0.5) + f64::from(index) * STEP).fract();
+    if at.x + at.y > 1.0 { 1.0 - at } else { at }
 }
 
 /// Twice a triangle's area in the world.

@@ -5,8 +5,9 @@
 
 use std::f64::consts::PI;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
+use super::emission::spread;
 use super::{Instance, Light, Scene, framing};
 
 /// Lights are faint that would give less than this to a white, matte surface which faces all of them from as far as the
@@ -111,7 +112,7 @@ fn receivers(scene: &Scene) -> Vec<Receiver> {
                 triangle.map(|corner| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3()));
             let normals = triangle.map(|corner| mesh.normals[corner as usize].as_dvec3());
             let area = 0.5 * (b - a).cross(c - a).length() / points as f64;
-            for at in (0..points).map(spread) {
+            for at in (0..points as u32).map(spread) {
                 let normal = normals[0] + at.x * (normals[1] - normals[0]) + at.y * (normals[2] - normals[0]);
                 let normal = (world_from_normal * normal).normalize_or_zero();
                 receivers.push(Receiver { point: a + at.x * (b - a) + at.y * (c - a), normal, two_sided, area });
@@ -120,13 +121,6 @@ fn receivers(scene: &Scene) -> Vec<Receiver> {
         passed += triangles.len();
     }
     receivers
-}
-
-/// Points of a triangle, as shares of its edges from the first corner.
-fn spread(index: usize) -> DVec2 {
-    // The sequence of the plastic number (M. Roberts 2018).
-    let at = (0.5 + index as f64 * DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3)).fract();
-    if at.x + at.y > 1.0 { 1.0 - at } else { at }
 }
 
 /// Of a white, matte surface: form factors are those of small sources, and never more than 1.
