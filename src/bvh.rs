@@ -5,6 +5,10 @@
 //! each is padded by what `f32` may have rounded away, so that nothing is missed: the hierarchy says where to look, the
 //! primitives say what is met.
 
+mod triangle;
+
+pub use triangle::Triangle;
+
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -22,9 +26,6 @@ const SPAN: f64 = (1 << 20) as f64;
 const PADDING: f32 = 2e-6 * SPAN as f32;
 /// How far beyond a hit boxes are still visited, as a share of its distance and of half the scene's size.
 const BEHIND: f64 = 1e-5;
-
-/// How far outside an edge a ray still meets a triangle, in weights of the corners, so that neighbours leave no gap.
-const EDGE: f64 = 1e-12;
 
 /// Three numbers in [0, 1), other ones for each index. Where one thing is far from all others these are so near to each
 /// other that their boxes are all alike; the tree pairs boxes by their areas, and of many that are equal it pairs but
@@ -93,21 +94,36 @@ impl Boundable for Boxed {
     }
 }
 
+/// The units of a hierarchy over what is between two corners; they are exact in `f32`.
+pub fn units([low, high]: [DVec3; 2]) -> (DVec3, f64) {
+    if !low.is_finite() || !high.is_finite() {
+        return (DVec3::ZERO, 1.0);
+    }
+    let half = (0.5 * high - 0.5 * low).max_element().max(1e-30);
+    ((0.5 * low + 0.5 * high).as_vec3().as_dvec3(), f64::from((half / SPAN) as f32))
+}
+
+fn is_finite(bounds: &[DVec3; 2]) -> bool {
+    bounds.iter().all(|corner| corner.is_finite())
+}
+
 impl<P: Primitive> Bvh<P> {
     /// A hierarchy over these primitives, in another order; those whose bounds are not finite are left out.
     pub fn new(primitives: Vec<P>) -> Self {
+        let bounds = primitives.iter().map(P::bounds).filter(is_finite);
+        let union = |[low, high]: [DVec3; 2], bounds: [DVec3; 2]| [low.min(bounds[0]), high.max(bounds[1])];
+        let [low, high] = bounds.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], union);
+        Self::in_units(primitives, units([low, high]))
+    }
+
+    /// The same in units of one's choice, which is for several hierarchies that a ray is to go through: where the coordinates
+    /// begin, and half the size of a cube about it in which most things are, over [`SPAN`].
+    pub fn in_units(primitives: Vec<P>, (center, scale): (DVec3, f64)) -> Self {
         let bounded = |primitive: P| {
             let bounds = primitive.bounds();
-            bounds.iter().all(|corner| corner.is_finite()).then_some((primitive, bounds))
+            is_finite(&bounds).then_some((primitive, bounds))
         };
         let bounded: Vec<(P, [DVec3; 2])> = primitives.into_iter().filter_map(bounded).collect();
-        let union = |[low, high]: [DVec3; 2], (_, bounds): &(P, [DVec3; 2])| [low.min(bounds[0]), high.max(bounds[1])];
-        let [low, high] = bounded.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], union);
-        let (center, scale) = if bounded.is_empty() {
-            (DVec3::ZERO, 1.0)
-        } else {
-            (0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low).max_element().max(f64::MIN_POSITIVE.sqrt()) / SPAN)
-        };
         let scaled = |corner: DVec3| Vec3A::from(((corner - center) / scale).as_vec3());
         let padded = |index: usize, [low, high]: [DVec3; 2]| {
             let (low, high) = (scaled(low), scaled(high));
@@ -125,6 +141,13 @@ impl<P: Primitive> Bvh<P> {
     /// The primitives, in the order of [`Meeting::index`].
     pub fn primitives(&self) -> &[P] {
         &self.primitives
+    }
+
+    /// The nodes as devices read them, 80 bytes each, the root first: eight children with their boxes in eight bits a side
+    /// (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs"; minima
+    /// and maxima side by side). A leaf's children are [`Self::primitives`], by index.
+    pub fn nodes(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.tree.nodes)
     }
 
     /// The nearest of the meetings between two distances that `accept` takes.
@@ -200,63 +223,6 @@ impl<P: Primitive> Bvh<P> {
     /// A length in the tree's units, and some more.
     fn shortened(&self, length: f64) -> f32 {
         ((length / self.scale).abs() * (1.0 + BEHIND) + BEHIND * SPAN) as f32
-    }
-}
-
-/// A triangle of a scene's instance, in the world.
-#[derive(Clone, Debug)]
-pub struct Triangle {
-    corner: DVec3,
-    /// From the first corner to the second, and to the third.
-    edges: [DVec3; 2],
-    /// Index into [`Scene::instances`](crate::scene::Scene::instances).
-    pub instance: u32,
-    /// Which of its mesh's triangles it is.
-    pub index: u32,
-}
-
-impl Triangle {
-    /// Triangle `index` of an instance's mesh, by its corners in the world.
-    pub fn new([a, b, c]: [DVec3; 3], instance: u32, index: u32) -> Self {
-        Self { corner: a, edges: [b - a, c - a], instance, index }
-    }
-
-    /// The face's normal by winding, twice the area long.
-    pub fn face(&self) -> DVec3 {
-        self.edges[0].cross(self.edges[1])
-    }
-}
-
-impl Primitive for Triangle {
-    /// Weights of the second and the third corner.
-    type Place = [f64; 2];
-
-    fn bounds(&self) -> [DVec3; 2] {
-        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
-        [corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2])]
-    }
-
-    /// Möller and Trumbore 1997.
-    #[inline]
-    fn meet(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
-        let [first, second] = self.edges;
-        let across = ray.direction.cross(second);
-        let slope = first.dot(across);
-        if slope == 0.0 {
-            return None;
-        }
-        let inverse = 1.0 / slope;
-        let to_origin = ray.origin - self.corner;
-        let u = to_origin.dot(across) * inverse;
-        if !(-EDGE..=1.0 + EDGE).contains(&u) {
-            return None;
-        }
-        let over = to_origin.cross(first);
-        let v = ray.direction.dot(over) * inverse;
-        if v < -EDGE || u + v > 1.0 + EDGE {
-            return None;
-        }
-        Some((second.dot(over) * inverse, [u, v]))
     }
 }
 
@@ -361,27 +327,6 @@ mod tests {
         assert_eq!(one.nearest(&ray, [0.0, 1e9], |_| true).map(|met| met.distance), Some(2.0));
         let broken = Bvh::new(vec![Ball { center: DVec3::NAN, radius: 1.0 }]);
         assert!(broken.primitives().is_empty() && broken.nearest(&ray, [0.0, 1e9], |_| true).is_none());
-    }
-
-    /// Rays through the edge that two triangles share meet one of them, at the place that its weights give.
-    #[test]
-    fn neighbouring_triangles_leave_no_gap() {
-        let mut rng = Pcg64::seed_from_u64(7);
-        for _ in 0..2000 {
-            let [a, b, c, d] = std::array::from_fn(|_| unit_sphere(&mut rng));
-            let on_edge = a.lerp(b, uniform(&mut rng));
-            let direction = unit_sphere(&mut rng);
-            let ray = Ray { origin: on_edge - 3.0 * direction, direction };
-            let corners = [[a, b, c], [b, a, d]];
-            let met = |corners: [DVec3; 3]| {
-                let (distance, [u, v]) = Triangle::new(corners, 0, 0).meet(&ray)?;
-                let by_weights = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
-                assert!((ray.at(distance) - by_weights).length() < 1e-9, "{corners:?}");
-                Some(distance)
-            };
-            let distances: Vec<f64> = corners.into_iter().filter_map(met).collect();
-            assert!(distances.iter().any(|distance| (distance - 3.0).abs() < 1e-9), "{corners:?} {ray:?}");
-        }
     }
 
     /// Their boxes are all alike: to pair but two of them at a time took minutes.

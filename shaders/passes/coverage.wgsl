@@ -24,7 +24,7 @@ fn coverage_untextured() -> CoverageTexel {
 }
 
 // `map` is the file's image, and all there is where nothing is cut out; `shares` has mipmaps of what is there (scene::Cutout).
-// Where nothing is filtered the alpha is the image's at the pixel's centre.
+// Where nothing is dithered the alpha is the image's at the pixel's centre.
 fn coverage_texel(
     map: texture_2d<f32>, map_sampler: sampler, shares: texture_2d<f32>, shares_sampler: sampler, uv: vec2f, pixel: vec2f,
 ) -> CoverageTexel {
@@ -40,10 +40,10 @@ fn coverage_texel(
     let image = textureSampleLevel(map, map_sampler, uv, 0.0);
     found.share = mean.a;
     // From half a texel a pixel to one: where texels are smaller, four samples miss some.
-    found.far = saturate(2.0 * max(length(size * right), length(size * down)) - 1.0);
+    found.far = saturate(2.0 * texels_footprint * max(length(size * right), length(size * down)) - 1.0);
     found.color = vec4f(mix(image.rgb, mean.rgb, found.far), image.a);
     found.alphas = vec4f(image.a);
-    if VARIANT_FILTERED && found.far < 1.0 {
+    if VARIANT_DITHERED && found.far < 1.0 {
         for (var index = 0; index < 4; index++) {
             let at = uv + COVERAGE_SAMPLE_X[index] * right + COVERAGE_SAMPLE_Y[index] * down;
             found.alphas[index] = textureSampleLevel(map, map_sampler, at, 0.0).a;
@@ -52,7 +52,7 @@ fn coverage_texel(
     return found;
 }
 
-// The samples that are covered, a bit each; of unfiltered shading all or none. A sample near a surface is covered where the alpha,
+// The samples that are covered, a bit each; where nothing is dithered, all or none. A sample near a surface is covered where the alpha,
 // with the material's and the vertices', is no less than the cutoff; far away each of the samples has a threshold of its own, a
 // quarter from the next one, for the share. Over pixels thresholds are uniform in [0, 1): the mean is the share itself.
 fn coverage_samples(
@@ -60,7 +60,7 @@ fn coverage_samples(
 ) -> u32 {
     let least = vec4f(cutoff - COVERAGE_ROUNDING);
     let slope = vec2f(dpdx(vertex_alpha), dpdy(vertex_alpha));
-    if !VARIANT_FILTERED {
+    if !VARIANT_DITHERED {
         return select(0u, COVERAGE_ALL, factor * vertex_alpha * texel.color.a >= least.x);
     }
     let opacity = factor * (vertex_alpha + COVERAGE_SAMPLE_X * slope.x + COVERAGE_SAMPLE_Y * slope.y);

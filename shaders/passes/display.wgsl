@@ -1,18 +1,28 @@
 // The second pass: a frame's radiance, multisampled or not, to what is shown (tone curve, sRGB) or measured
 // (the plain mean of a pixel's samples).
 
+// Whether the shares of radiance that are left have been filtered; otherwise what is blocked is subtracted.
+override DISPLAY_FILTERED: bool = false;
+// Whether what is shown has more pixels than what was drawn.
+override DISPLAY_SCALED: bool = false;
 // What a pipeline shows with. 0: clamped; 1: Khronos PBR Neutral; 2: AgX.
 override DISPLAY_TONE_CURVE: u32 = 0;
 
 struct DisplayUniforms {
     // The pixel of the output that shows the radiance's first.
     origin: vec2u,
-    padding: vec2u,
+    // Pixels that were drawn for each that is shown, across and down.
+    scale: vec2f,
+    // What exposed radiance is multiplied by: its exposure may have changed since.
+    gain: f32,
 }
 
 @group(0) @binding(0) var<uniform> display_uniforms: DisplayUniforms;
 @group(0) @binding(1) var display_radiance: texture_2d<f32>;
 @group(0) @binding(2) var display_radiance_multisampled: texture_multisampled_2d<f32>;
+// Of a frame with shadows: what is blocked, and the shares that are left.
+@group(0) @binding(3) var display_blocked: texture_2d<f32>;
+@group(0) @binding(4) var display_shares: texture_2d<f32>;
 
 // One triangle that covers the target.
 @vertex
@@ -120,4 +130,39 @@ fn display_measured_multisampled(@builtin(position) position: vec4f) -> @locatio
         sum += textureLoad(display_radiance_multisampled, pixel, sample);
     }
     return 0.25 * sum;
+}
+
+// What is left of a pixel's radiance, and the share of it that is lit.
+fn display_left(pixel: vec2u) -> vec4f {
+    let radiance = textureLoad(display_radiance, pixel, 0);
+    var left = max(radiance.rgb - textureLoad(display_blocked, pixel, 0).rgb, vec3f(0.0));
+    if DISPLAY_FILTERED {
+        left = radiance.rgb * textureLoad(display_shares, pixel, 0).rgb;
+    }
+    return vec4f(left * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
+}
+
+fn display_left_at(position: vec4f) -> vec4f {
+    let pixel = vec2u(position.xy) - display_uniforms.origin;
+    if !DISPLAY_SCALED {
+        return display_left(pixel);
+    }
+    let last = vec2f(textureDimensions(display_radiance) - 1u);
+    let at = clamp((vec2f(pixel) + 0.5) * display_uniforms.scale - 0.5, vec2f(0.0), last);
+    let low = vec2u(at);
+    let high = min(low + 1u, vec2u(last));
+    let weight = at - vec2f(low);
+    let upper = mix(display_left(low), display_left(vec2u(high.x, low.y)), weight.x);
+    let lower = mix(display_left(vec2u(low.x, high.y)), display_left(high), weight.x);
+    return mix(upper, lower, weight.y);
+}
+
+@fragment
+fn display_shown_shadowed(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return display_srgb(display_seen(display_left_at(position)));
+}
+
+@fragment
+fn display_measured_shadowed(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return display_left_at(position);
 }

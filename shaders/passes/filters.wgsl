@@ -24,11 +24,11 @@ struct FiltersPixel {
 fn filters_pixel(n_center: vec3f, view: vec3f, roughness: f32, samples: u32) -> FiltersPixel {
     var pixel: FiltersPixel;
     if VARIANT_FILTERED {
-        pixel.right = dpdx(n_center);
-        pixel.down = dpdy(n_center);
+        pixel.right = texels_footprint * dpdx(n_center);
+        pixel.down = texels_footprint * dpdy(n_center);
         let unit = filters_normalize(n_center);
-        let right = dpdx(unit);
-        let down = dpdy(unit);
+        let right = texels_footprint * dpdx(unit);
+        let down = texels_footprint * dpdy(unit);
         pixel.width = abs(dot(right, view)) + abs(dot(down, view));
         pixel.variance = 0.25 * (dot(right, right) + dot(down, down));
         let squared = roughness * roughness * roughness * roughness;

@@ -14,6 +14,18 @@ struct LightsPunctual {
     cone_versine: f32,
 }
 
+// Light from one direction.
+struct LightsArriving {
+    // Across the direction.
+    irradiance: vec3f,
+    // Unit, in the local frame.
+    wo: vec3f,
+    distance: f32,
+}
+
+// The distance of directional lights: beyond everything.
+const LIGHTS_FAR = 1e15;
+
 struct LightsCounts {
     // Polygons of one outline of four vertices come first.
     quads: u32,
@@ -35,7 +47,7 @@ fn lights_incident(receiver: Receiver) -> LobesColors {
     }
     if VARIANT_PUNCTUAL {
         for (var index = 0u; index < lights_counts.punctual; index++) {
-            incident = lights_add_punctual(receiver, incident, lights_punctual[index]);
+            incident = lights_add_punctual(receiver, incident, index);
         }
     }
     return incident;
@@ -53,7 +65,7 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
             form_factors.sheen = points_sheen(receiver, index, form_factors.diffuse);
         }
         let radiance = polygons_lights[index].radiance;
-        incident = lights_add(receiver, incident, radiance, form_factors, integrals.mean_cosine);
+        incident = lights_add(receiver, incident, index, radiance, form_factors, integrals.mean_cosine);
         index = lights_next(receiver, index + 1u, end);
     }
     return incident;
@@ -75,10 +87,15 @@ fn lights_next(receiver: Receiver, first: u32, end: u32) -> u32 {
     return index;
 }
 
+// `light` counts polygons first and then lights without extent.
 fn lights_add(
-    receiver: Receiver, before: LobesColors, radiance: vec3f, form_factors: LobesScalars, mean_cosine: f32,
+    receiver: Receiver, before: LobesColors, light: u32, radiance: vec3f, form_factors: LobesScalars, mean_cosine: f32,
 ) -> LobesColors {
-    let base = radiance * receiver_base_weight(receiver, mean_cosine);
+    let base_weight = receiver_base_weight(receiver, mean_cosine);
+    if VARIANT_SHADOWED {
+        picks_offer(receiver, light, radiance, base_weight, form_factors);
+    }
+    let base = radiance * base_weight;
     var incident = before;
     incident.diffuse += base * form_factors.diffuse;
     incident.specular += base * form_factors.specular;
@@ -86,23 +103,30 @@ fn lights_add(
     return incident;
 }
 
-fn lights_add_punctual(receiver: Receiver, incident: LobesColors, light: LightsPunctual) -> LobesColors {
+fn lights_add_punctual(receiver: Receiver, incident: LobesColors, index: u32) -> LobesColors {
+    let arriving = lights_arriving(receiver, lights_punctual[index]);
+    var densities: LobesScalars;
+    if dot(receiver.up, arriving.wo) > 0.0 {
+        densities = lights_densities(receiver, arriving.wo);
+    }
+    let light = lights_counts.polygons + index;
+    return lights_add(receiver, incident, light, arriving.irradiance, densities, max(arriving.wo.z, 0.0));
+}
+
+// What a light without extent sends to a point.
+fn lights_arriving(receiver: Receiver, light: LightsPunctual) -> LightsArriving {
     let way = light.has_place * (light.position - receiver.p_world) - (1.0 - light.has_place) * light.direction;
     // A light is never nearer than a micrometre: at the point itself it comes from nowhere.
     let square = max(dot(way, way), 1e-12);
     let wo = way * inverseSqrt(square);
-    let local = receiver.local_from_world * wo;
     // Falls off to nothing at the range as KHR_lights_punctual recommends.
     let reach = square * light.inverse_range_squared;
     // 1 - cos, which for narrow cones is what is left of it in 32 bits.
     let off_axis = light.direction + wo;
     let cone = saturate(light.cone_scale * (light.cone_versine - 0.5 * dot(off_axis, off_axis)));
     let falloff = saturate(1.0 - reach * reach) * cone * cone * mix(1.0, 1.0 / square, light.has_place);
-    var densities: LobesScalars;
-    if dot(receiver.up, local) > 0.0 {
-        densities = lights_densities(receiver, local);
-    }
-    return lights_add(receiver, incident, falloff * light.intensity, densities, max(local.z, 0.0));
+    let distance = select(LIGHTS_FAR, sqrt(square), light.has_place > 0.0);
+    return LightsArriving(falloff * light.intensity, receiver.local_from_world * wo, distance);
 }
 
 // The lobes' densities in a unit direction of the local frame.

@@ -12,6 +12,8 @@ struct PolygonsLight {
     // In points_on_polygons.
     first_point: u32,
     end_point: u32,
+    // In Drawn::lights.
+    light: u32,
 }
 
 @group(0) @binding(6) var<storage, read> polygons_lights: array<PolygonsLight>;

@@ -14,6 +14,11 @@ struct Receiver {
     layering: u32,
     // What the sheen leaves of the base, seen from the view's side.
     base_weight: f32,
+    // What the lobes scatter of light that fills them.
+    colors: LobesColors,
+    // Of the pixel's random numbers, and which of its samples this is.
+    seed: u32,
+    sample: u32,
 }
 
 // Both normals are unit and on the side that is seen; smooth_normal is without the normal map. mu takes the place of the

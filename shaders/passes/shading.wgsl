@@ -18,14 +18,19 @@ struct ShadingPoint {
     // Takes the place of the view's cosine.
     mu: f32,
     roughness: f32,
+    // Of the pixel's random numbers, and which of its samples this is.
+    seed: u32,
+    sample: u32,
 }
 
-// What the point scatters of the light that arrives there.
-fn shading_reflected(surface: MaterialSurface, point: ShadingPoint, weights: ShadingWeights) -> vec3f {
+// The point as lights see it.
+fn shading_receiver(surface: MaterialSurface, point: ShadingPoint, weights: ShadingWeights) -> Receiver {
     let lobes = lobes_at(point.roughness, surface.sheen_alpha, point.mu);
-    let receiver = receiver_at(
+    var receiver = receiver_at(
         point.p_world, point.normal, point.smooth_normal, point.view, point.mu, surface, lobes,
     );
+    receiver.seed = point.seed;
+    receiver.sample = point.sample;
     var specular = vec3f(0.0);
     var diffuse = (1.0 - surface.metallic) * surface.base_color;
     if VARIANT_SPECULAR {
@@ -36,12 +41,18 @@ fn shading_reflected(surface: MaterialSurface, point: ShadingPoint, weights: Sha
         specular = weights.specular * ggx_albedo(lobes.specular, f0, f90);
         diffuse *= ggx_base_weight(ggx_albedo(lobes.specular, dielectric_f0, vec3f(surface.f90)));
     }
-    diffuse *= weights.diffuse;
-    let reflected = surface.sheen_color * lobes.sheen.albedo * weights.sheen;
+    let sheen = surface.sheen_color * lobes.sheen.albedo * weights.sheen;
+    receiver.colors = LobesColors(weights.diffuse * diffuse, specular, sheen);
+    return receiver;
+}
+
+// What it scatters of the light that arrives there, with nothing in the way.
+fn shading_reflected(receiver: Receiver, occlusion: f32, weights: ShadingWeights) -> vec3f {
+    let colors = receiver.colors;
     let incident = lights_incident(receiver);
-    let ambient = lights_ambient(receiver) * surface.occlusion * weights.ambient;
-    return diffuse * (incident.diffuse + ambient) + specular * (incident.specular + ambient)
-        + reflected * (incident.sheen + surface.occlusion * weights.ambient);
+    let ambient = lights_ambient(receiver) * occlusion * weights.ambient;
+    return colors.diffuse * (incident.diffuse + ambient) + colors.specular * (incident.specular + ambient)
+        + colors.sheen * (incident.sheen + occlusion * weights.ambient);
 }
 
 // What a pixel shows of it: shaded at the centroid, or the mean of what the covered samples scatter that are seen from the front. `n_center` is
@@ -51,7 +62,7 @@ fn shading_pixel(
     pixel: FiltersPixel, samples: u32,
 ) -> vec3f {
     if !VARIANT_SHARP {
-        return shading_reflected(surface, centroid, weights);
+        return shading_reflected(shading_receiver(surface, centroid, weights), surface.occlusion, weights);
     }
     var point = centroid;
     var sum = vec3f(0.0);
@@ -66,7 +77,7 @@ fn shading_pixel(
             point.mu = filters_visible_mean(cosine, pixel.width);
             weight = select(0.0, 1.0, filters_covers(samples, index) && cosine > 0.0);
         }
-        sum += weight * shading_reflected(surface, point, weights);
+        sum += weight * shading_reflected(shading_receiver(surface, point, weights), surface.occlusion, weights);
         count += weight;
         continuing {
             index++;

@@ -3,10 +3,12 @@
 use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
-use wgpu::{BindGroup, BindGroupLayout, BufferUsages, CommandEncoder, Device, PipelineLayout, Queue, RenderPipeline};
+use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderPipeline};
 use wgpu::{ShaderModule, TextureFormat, TextureView};
 
-use super::targets::{RadianceFormat, Targets};
+use super::accumulation::Means;
+use super::fullscreen;
+use super::targets::Targets;
 use super::tracked_buffer::TrackedBuffer;
 use super::view::Rect;
 use crate::picture::ToneCurve;
@@ -33,7 +35,9 @@ pub enum Showing {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
     origin: [u32; 2],
-    padding: [u32; 2],
+    scale: [f32; 2],
+    gain: f32,
+    padding: u32,
 }
 
 impl Showing {
@@ -55,26 +59,66 @@ impl Showing {
     }
 }
 
+/// What a frame was drawn as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// One sample a pixel.
+    Single,
+    /// Four.
+    Multisampled,
+    /// Means of samples with shadows.
+    Shadowed,
+}
+
+/// What of a frame is shown.
+pub(super) enum Drawn<'a> {
+    Targets(&'a Targets),
+    Shadowed {
+        means: &'a Means,
+        /// The shares that are left, where they were filtered.
+        shares: Option<&'a TextureView>,
+        size: [u32; 2],
+        /// What exposed radiance is multiplied by.
+        gain: f32,
+    },
+}
+
 /// Draws a frame's radiance into an output of one format.
 pub struct DisplayPass {
-    pipelines: Pipelines,
-    /// By their tone curves, each made when it is first asked for.
-    made: HashMap<u32, RenderPipeline>,
+    shader: ShaderModule,
     layout: BindGroupLayout,
+    source: Source,
+    output: TextureFormat,
+    measured: bool,
+    made: HashMap<Variant, RenderPipeline>,
     uniforms: TrackedBuffer,
-    radiance_binding: u32,
+}
+
+/// What a pipeline is made for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Variant {
+    /// `DISPLAY_TONE_CURVE` of `display.wgsl`.
+    tone_curve: u32,
+    filtered: bool,
+    scaled: bool,
 }
 
 impl DisplayPass {
     /// The pass for `Showing::Measured` where `measured`, else for `Showing::Shown`.
-    pub fn new(device: &Device, radiance: RadianceFormat, output: TextureFormat, measured: bool) -> Self {
-        let multisampled = radiance.samples > 1;
-        let radiance_binding = if multisampled { 2 } else { 1 };
-        let layout = bind_group_layout(device, radiance_binding, multisampled);
-        let pipelines = Pipelines::new(device, &layout, entry_point(measured, multisampled), output);
+    pub fn new(device: &Device, source: Source, output: TextureFormat, measured: bool) -> Self {
+        let textures: &[(u32, bool)] = match source {
+            Source::Single => &[(1, false)],
+            Source::Multisampled => &[(2, true)],
+            Source::Shadowed => &[(1, false), (3, false), (4, false)],
+        };
+        let layout = fullscreen::layout(device, "display", true, textures);
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("display"),
+            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
+        });
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "display uniforms", &uniforms, BufferUsages::UNIFORM);
-        Self { pipelines, made: HashMap::new(), layout, uniforms, radiance_binding }
+        Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms }
     }
 
     /// How many pipelines there are.
@@ -82,126 +126,58 @@ impl DisplayPass {
         self.made.len()
     }
 
-    /// Shows the targets' radiance in the rectangle `place` of the output, which is at most of the targets' size. What
-    /// lies around it becomes black.
+    /// Shows what was drawn in the rectangle `place` of the output, which is at most of the targets' size, or of any size
+    /// where that has shadows. What lies around it becomes black.
     pub fn encode(
         &mut self,
         (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
-        targets: &Targets,
+        drawn: &Drawn,
         (output, place): (&TextureView, Rect),
         showing: Showing,
     ) {
-        let uniforms = Uniforms { origin: [place.x, place.y], padding: [0; 2] };
+        let Rect { x, y, width, height } = place;
+        let (textures, scale, gain, filtered): (Vec<(u32, &TextureView)>, _, _, _) = match drawn {
+            Drawn::Targets(targets) => {
+                let binding = if self.source == Source::Multisampled { 2 } else { 1 };
+                (vec![(binding, &targets.radiance)], [1.0; 2], 1.0, false)
+            }
+            Drawn::Shadowed { means, shares, size, gain } => {
+                let textures = [(1, &means.radiance), (3, &means.blocked), (4, shares.unwrap_or(&means.blocked))];
+                let scale = [size[0] as f32 / width as f32, size[1] as f32 / height as f32];
+                (textures.to_vec(), scale, *gain, shares.is_some())
+            }
+        };
+        let uniforms = Uniforms { origin: [x, y], scale, gain, padding: 0 };
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
-        let bind_group = self.bind_group(device, targets);
-        let tone_curve = showing.tone_curve();
-        let pipeline = self.made.entry(tone_curve).or_insert_with(|| self.pipelines.make(device, tone_curve));
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("display"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: output,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-            })],
-            ..Default::default()
-        });
-        pass.set_scissor_rect(place.x, place.y, place.width, place.height);
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &bind_group, &[]);
-        pass.draw(0..3, 0..1);
+        let bind_group = fullscreen::bind_group(device, &self.layout, Some(self.uniforms.binding()), &textures);
+        let variant = Variant { tone_curve: showing.tone_curve(), filtered, scaled: scale != [1.0; 2] };
+        let pipeline = self.pipeline(device, variant);
+        fullscreen::run(encoder, (pipeline, &bind_group), &[output], Some([x, y, width, height]));
     }
 
-    fn bind_group(&self, device: &Device, targets: &Targets) -> BindGroup {
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("display"),
-            layout: &self.layout,
-            entries: &[
-                entry(0, self.uniforms.binding()),
-                entry(self.radiance_binding, wgpu::BindingResource::TextureView(&targets.radiance)),
-            ],
+    fn pipeline(&mut self, device: &Device, variant: Variant) -> &RenderPipeline {
+        self.made.entry(variant).or_insert_with(|| {
+            let constants = [
+                ("DISPLAY_TONE_CURVE", f64::from(variant.tone_curve)),
+                ("DISPLAY_FILTERED", f64::from(u8::from(variant.filtered))),
+                ("DISPLAY_SCALED", f64::from(u8::from(variant.scaled))),
+            ];
+            let entry_points = ["display_vertex", entry_point(self.measured, self.source)];
+            fullscreen::pipeline(device, (&self.layout, &self.shader), entry_points, &constants, &[self.output])
         })
     }
-}
-
-fn bind_group_layout(device: &Device, radiance_binding: u32, multisampled: bool) -> BindGroupLayout {
-    let entry =
-        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
-    let uniforms = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    let radiance = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled,
-    };
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("display"),
-        entries: &[entry(0, uniforms), entry(radiance_binding, radiance)],
-    })
 }
 
 /// Of the fragment shader.
-fn entry_point(measured: bool, multisampled: bool) -> &'static str {
-    match (measured, multisampled) {
-        (false, false) => "display_shown_single",
-        (false, true) => "display_shown_multisampled",
-        (true, false) => "display_measured_single",
-        (true, true) => "display_measured_multisampled",
-    }
-}
-
-/// What all pipelines of the pass have in common.
-struct Pipelines {
-    shader: ShaderModule,
-    layout: PipelineLayout,
-    entry_point: &'static str,
-    output: TextureFormat,
-}
-
-impl Pipelines {
-    fn new(device: &Device, layout: &BindGroupLayout, entry_point: &'static str, output: TextureFormat) -> Self {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("display"),
-            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
-        });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("display"),
-            bind_group_layouts: &[Some(layout)],
-            immediate_size: 0,
-        });
-        Self { shader, layout, entry_point, output }
-    }
-
-    /// The pipeline of a tone curve, as `DISPLAY_TONE_CURVE` counts.
-    fn make(&self, device: &Device, tone_curve: u32) -> RenderPipeline {
-        let constants = [("DISPLAY_TONE_CURVE", f64::from(tone_curve))];
-        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("display"),
-            layout: Some(&self.layout),
-            vertex: wgpu::VertexState {
-                module: &self.shader,
-                entry_point: Some("display_vertex"),
-                compilation_options: compilation_options.clone(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.shader,
-                entry_point: Some(self.entry_point),
-                compilation_options,
-                targets: &[Some(self.output.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+fn entry_point(measured: bool, source: Source) -> &'static str {
+    match (measured, source) {
+        (false, Source::Single) => "display_shown_single",
+        (false, Source::Multisampled) => "display_shown_multisampled",
+        (false, Source::Shadowed) => "display_shown_shadowed",
+        (true, Source::Single) => "display_measured_single",
+        (true, Source::Multisampled) => "display_measured_multisampled",
+        (true, Source::Shadowed) => "display_measured_shadowed",
     }
 }
 
@@ -212,7 +188,7 @@ mod tests {
 
     #[test]
     fn the_uniforms_stand_as_the_shader_reads_them() {
-        let members = members!(Uniforms { origin, padding });
+        let members = members!(Uniforms { origin, scale, gain });
         assert_eq!(differences(DISPLAY_WGSL, "DisplayUniforms", size_of::<Uniforms>(), members), [""; 0]);
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct GpuPolygon {
     end_vertex: u32,
     first_point: u32,
     end_point: u32,
-    padding: u32,
+    light: u32,
 }
 
 /// `LightsPunctual` of `lights.wgsl`.
@@ -88,14 +88,15 @@ impl GpuLights {
         let (mut polygons, mut vertices, mut points) = (Vec::new(), Vec::new(), Vec::new());
         let mut add = |quads: bool| {
             // Black lights contribute nothing and are left out.
-            for light in drawn.lights.iter().filter(|light| light.radiance != Vec3::ZERO) {
+            for (index, light) in drawn.lights.iter().enumerate().filter(|(_, light)| light.radiance != Vec3::ZERO) {
                 for polygon in light.polygons.iter().filter(|polygon| is_quad(polygon) == quads) {
                     let first_point = points.len() as u32;
                     if sampled {
                         points.extend(spread(polygon));
                     }
                     let of_points = first_point..points.len() as u32;
-                    polygons.push(gpu_polygon(light, polygon, &mut vertices, of_points));
+                    let polygon = gpu_polygon(light, polygon, &mut vertices, of_points);
+                    polygons.push(GpuPolygon { light: index as u32, ..polygon });
                 }
             }
             polygons.len() as u32
@@ -125,7 +126,7 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, point
         end_vertex: vertices.len() as u32,
         first_point: points.start,
         end_point: points.end,
-        padding: 0,
+        light: 0,
     }
 }
 
@@ -217,7 +218,8 @@ mod tests {
             radius,
             end_vertex,
             first_point,
-            end_point
+            end_point,
+            light
         });
         let punctual = members!(GpuPunctual {
             intensity,

@@ -1,6 +1,7 @@
 //! The exposure that what is seen asks for: a small picture of its radiance, read back.
 
-use super::display::DisplayPass;
+use super::display::{DisplayPass, Drawn, Source};
+use super::pipelines::Stage;
 use super::readback::Canvas;
 use super::targets::Targets;
 use super::{Gpu, Rect, RenderError, Renderer, Showing, View};
@@ -58,10 +59,11 @@ impl Renderer {
 
     fn small(&self, gpu: &Gpu, camera: &Camera, size: [u32; 2]) -> Meter {
         let (size, format) = (metered_size(size), self.format.radiance);
+        let source = if format.samples > 1 { Source::Multisampled } else { Source::Single };
         Meter {
             canvas: Canvas::new(gpu, size, format.texture),
             targets: Targets::new(&gpu.device, size, format),
-            display: DisplayPass::new(&gpu.device, format, format.texture, true),
+            display: DisplayPass::new(&gpu.device, source, format.texture, true),
             size,
             view: View::new(camera, size, Rect::full(size)),
         }
@@ -84,10 +86,12 @@ impl Renderer {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("meter") });
         let gain = settings.exposure.exp2();
         self.blended.prepare(gpu, &self.resident.draws, &meter.view);
+        self.surfaces.prepare(gpu, &self.resident, &[Stage::Unshadowed]);
         let things = (&self.resident, &self.blended);
         self.surfaces.encode(&gpu.queue, &mut encoder, &meter.targets, things, (&meter.view, settings, gain));
         let output = (&meter.canvas.view, Rect::full(meter.size));
-        meter.display.encode((&gpu.device, &gpu.queue), &mut encoder, &meter.targets, output, Showing::Measured);
+        let drawn = Drawn::Targets(&meter.targets);
+        meter.display.encode((&gpu.device, &gpu.queue), &mut encoder, &drawn, output, Showing::Measured);
         let texels = meter.canvas.read_floats(gpu, encoder).await?;
         // Its last number is the share that is lit.
         let lit = |[red, green, blue, share]: [f32; 4]| if share > 0.5 { [red, green, blue] } else { [0.0; 3] };

@@ -3,13 +3,16 @@
 //! A frame goes through two passes. The first draws every surface's radiance, lit by the polygon lights in closed form,
 //! and exposed, into floating-point targets; the second shows it (tone curve, sRGB) or measures it (plain linear radiance).
 
+mod accumulation;
 mod blended;
+mod blockers;
 #[cfg(test)]
 mod branches;
 mod calls;
 pub mod device;
 mod display;
 mod draws;
+mod fullscreen;
 #[cfg(test)]
 mod layout;
 mod lights;
@@ -21,7 +24,11 @@ mod pipelines;
 mod prior_sheens;
 mod readback;
 mod resident;
+mod sample;
 mod shader;
+mod shadowed;
+mod shadows;
+mod shares;
 mod surfaces;
 mod tables;
 mod targets;
@@ -31,14 +38,19 @@ mod view;
 
 pub use device::{DeviceError, Gpu};
 pub use display::Showing;
-pub use offscreen::Offscreen;
+pub use offscreen::{Effort, Offscreen, SAMPLES};
+pub use sample::Sample;
 pub use shader::SURFACES_WGSL;
+pub use shadows::{Blockers, Built};
 pub use targets::RadianceFormat;
 pub use view::{Rect, View};
 
 use blended::Blended;
-use display::DisplayPass;
+use display::{DisplayPass, Source};
+use pipelines::Stage;
 use resident::Resident;
+use shadowed::{Formats, Shadowed};
+use shadows::Shadows;
 use surfaces::SurfacesPass;
 use targets::Targets;
 
@@ -94,6 +106,9 @@ pub struct Format {
     pub measured: bool,
 }
 
+/// Samples from which on a picture is shown as they are; shadows of fewer are filtered.
+pub const UNFILTERED: u32 = 16;
+
 /// A scene on a device, ready to be drawn from any view.
 pub struct Renderer {
     format: Format,
@@ -103,17 +118,36 @@ pub struct Renderer {
     display: DisplayPass,
     targets: Option<Targets>,
     targets_made: usize,
+    shadows: Shadows,
+    shadowed: Shadowed,
+    /// Whether what was drawn last has shadows.
+    is_shadowed: bool,
 }
 
 impl Renderer {
-    /// Uploads the scene and makes the pipelines. Drivers may put off compiling them until the first frame.
+    /// Uploads the scene and makes the pipelines. Drivers may put off compiling them until the first frame. There are no
+    /// shadows before [`Self::receive`].
     pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
         let resident = Resident::new(gpu, drawn)?;
         let mut blended = Blended::default();
         blended.update(drawn, &resident.draws);
-        let surfaces = SurfacesPass::new(gpu, format.radiance, table, &resident);
-        let display = DisplayPass::new(&gpu.device, format.radiance, format.output, format.measured);
-        Ok(Self { format, resident, blended, surfaces, display, targets: None, targets_made: 0 })
+        let formats = Formats::new(gpu, format);
+        let mut surfaces = SurfacesPass::new(gpu, (format.radiance, formats.guide), table, &resident);
+        let source = if format.radiance.samples > 1 { Source::Multisampled } else { Source::Single };
+        let display = DisplayPass::new(&gpu.device, source, format.output, format.measured);
+        surfaces.prepare(gpu, &resident, &[]);
+        Ok(Self {
+            format,
+            resident,
+            blended,
+            surfaces,
+            display,
+            targets: None,
+            targets_made: 0,
+            shadows: Shadows::default(),
+            shadowed: Shadowed::new(gpu, format, formats),
+            is_shadowed: false,
+        })
     }
 
     /// Sends what other edits make of the same scene to the device: materials, lights and places.
@@ -122,19 +156,47 @@ impl Renderer {
             self.surfaces.rebind(&gpu.device, &self.resident);
         }
         self.blended.update(drawn, &self.resident.draws);
-        self.surfaces.prepare(gpu, &self.resident);
         Ok(())
     }
 
+    /// What is to be built, and handed to [`Self::receive`], before the scene as it is drawn has its shadows; none where it has
+    /// them, where there are to be none, or where the device can have none, which [`Self::notice`] then says.
+    pub fn blockers(&mut self, gpu: &Gpu, drawn: &Drawn) -> Option<Blockers> {
+        self.shadows.gather(&gpu.device.limits(), drawn)
+    }
+
+    /// Takes what stands in the way of light to the device. Until something else is received, shadows are its.
+    pub fn receive(&mut self, gpu: &Gpu, built: Built) {
+        self.shadows.receive(gpu, &self.surfaces.blockers_layout, built);
+    }
+
+    /// Whether pictures with these settings have shadows now.
+    pub fn has_shadows(&self, settings: &Settings) -> bool {
+        settings.shadows && self.shadows.bound().is_some()
+    }
+
     /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which are kept for
-    /// `show`.
+    /// `show`. With shadows that is a sample, which is added to those before it; without them there is but one.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         size: [u32; 2],
         (view, settings, showing): (&View, &Settings, Showing),
+        sample: &Sample,
     ) {
+        self.blended.prepare(gpu, &self.resident.draws, view);
+        self.is_shadowed = self.has_shadows(settings);
+        let things = (&self.resident, &self.blended);
+        if let Some((blockers, kinds)) = self.shadows.bound().filter(|_| self.is_shadowed) {
+            let stage = sample.stage(kinds);
+            self.surfaces.prepare(gpu, &self.resident, &[Stage::Depth, stage]);
+            let (targets, gain) = self.shadowed.begin(gpu, size, sample.index, showing.gain());
+            let frame = (view, settings, gain, sample);
+            self.surfaces.encode_shadowed(&gpu.queue, encoder, (targets, stage, blockers), things, frame);
+            self.shadowed.add(gpu, encoder);
+            return;
+        }
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
             _ => {
@@ -142,33 +204,41 @@ impl Renderer {
                 Targets::new(&gpu.device, size, self.format.radiance)
             }
         };
-        self.blended.prepare(gpu, &self.resident.draws, view);
-        let things = (&self.resident, &self.blended);
+        self.surfaces.prepare(gpu, &self.resident, &[Stage::Unshadowed]);
         self.surfaces.encode(&gpu.queue, encoder, &targets, things, (view, settings, showing.gain()));
         self.targets = Some(targets);
     }
 
-    /// What is to be said of the view that was drawn last: where so much is blended that it could not be sorted exactly.
+    /// What is to be said of the view that was drawn last: why it has no shadows, or where so much is blended that it could not be
+    /// sorted exactly.
     pub fn notice(&self) -> Option<&str> {
-        self.blended.notice.as_deref()
+        self.shadows.lack.as_deref().or(self.blended.notice.as_deref())
+    }
+
+    /// Samples of the picture that was drawn last.
+    pub fn samples(&self) -> u32 {
+        if self.is_shadowed { self.shadowed.samples() } else { 1 }
     }
 
     /// How many pipelines and targets there have been so far: where it grows, a frame took longer than others will.
     pub fn made(&self) -> usize {
-        self.surfaces.made() + self.display.made() + self.targets_made
+        self.surfaces.made() + self.display.made() + self.targets_made + self.shadowed.made()
     }
 
-    /// The second pass: shows what was drawn last, which was exposed for the same `showing`, in the output from the
-    /// pixel `origin` on. Other pixels of the output become black.
+    /// The last pass: shows what was drawn last, which was exposed for the same `showing`, in a rectangle of the output. That is of
+    /// the size that was drawn, or of any where it has shadows. Other pixels of the output become black.
     pub fn show(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        (output, origin): (&wgpu::TextureView, [u32; 2]),
+        output: (&wgpu::TextureView, Rect),
         showing: Showing,
     ) {
-        let Some(targets) = &self.targets else { return };
-        let place = Rect { x: origin[0], y: origin[1], width: targets.size[0], height: targets.size[1] };
-        self.display.encode((&gpu.device, &gpu.queue), encoder, targets, (output, place), showing);
+        if self.is_shadowed {
+            self.shadowed.show(gpu, encoder, output, showing);
+        } else if let Some(targets) = &self.targets {
+            let drawn = display::Drawn::Targets(targets);
+            self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use half::f16;
 
 use super::readback::Canvas;
-use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Showing, View};
+use super::{Format, Gpu, RadianceFormat, Rect, RenderError, Renderer, Sample, Showing, View};
 use crate::picture::{DisplayImage, Exposure, LinearImage};
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 use crate::table::SheenTable;
@@ -16,7 +16,23 @@ pub struct Offscreen {
     renderer: Renderer,
     format: Format,
     notice: Option<String>,
+    /// How much work pictures with shadows are.
+    pub effort: Effort,
 }
+
+/// How much work a picture with shadows is. One without them has no noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Samples a pixel, at least 1.
+    pub samples: u32,
+    /// Another seed gives other noise.
+    pub seed: u32,
+    /// Whether samples lie all over the pixel, or at its centre.
+    pub spread: bool,
+}
+
+/// Samples a pixel where nobody has said how many.
+pub const SAMPLES: u32 = 16;
 
 impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
@@ -57,7 +73,7 @@ impl Offscreen {
         drawn: &Drawn,
     ) -> Result<Self, RenderError> {
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None })
+        Self::new(gpu, format, table, drawn)
     }
 
     fn for_linear_in(
@@ -67,7 +83,21 @@ impl Offscreen {
         drawn: &Drawn,
     ) -> Result<Self, RenderError> {
         let format = Format { radiance, output: radiance.texture, measured: true };
-        Ok(Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None })
+        Self::new(gpu, format, table, drawn)
+    }
+
+    fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
+        let effort = Effort { samples: SAMPLES, seed: 0, spread: format.radiance.samples > 1 };
+        let mut offscreen = Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None, effort };
+        offscreen.build(gpu, drawn);
+        Ok(offscreen)
+    }
+
+    /// Builds what shadows take.
+    fn build(&mut self, gpu: &Gpu, drawn: &Drawn) {
+        if let Some(blockers) = self.renderer.blockers(gpu, drawn) {
+            self.renderer.receive(gpu, blockers.build());
+        }
     }
 
     /// The picture that `velour render` makes of a scene with the flags that make these edits: through their camera, else
@@ -101,7 +131,9 @@ impl Offscreen {
 
     /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
-        self.renderer.update(gpu, drawn)
+        self.renderer.update(gpu, drawn)?;
+        self.build(gpu, drawn);
+        Ok(())
     }
 
     /// The exposure value that metering takes for a picture of this size ([`metered`](crate::picture::metered)): of what
@@ -199,9 +231,17 @@ impl Offscreen {
     ) -> Result<Vec<u8>, RenderError> {
         let size = [tile.width, tile.height];
         let canvas = Canvas::new(gpu, size, self.format.output);
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-        self.renderer.draw(gpu, &mut encoder, size, (view, settings, showing));
-        self.renderer.show(gpu, &mut encoder, (&canvas.view, [0, 0]), showing);
+        let begin = || gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
+        let Effort { samples, seed, spread } = self.effort;
+        let samples = if self.renderer.has_shadows(settings) { samples } else { 1 };
+        let mut encoder = begin();
+        for index in 0..samples {
+            let sample = Sample { index, seed, spread };
+            self.renderer.draw(gpu, &mut encoder, size, (view, settings, showing), &sample);
+            // What is written for a sample counts for all that is submitted with it.
+            gpu.queue.submit([std::mem::replace(&mut encoder, begin()).finish()]);
+        }
+        self.renderer.show(gpu, &mut encoder, (&canvas.view, Rect::full(size)), showing);
         canvas.read(gpu, encoder).await
     }
 }

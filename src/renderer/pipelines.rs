@@ -1,24 +1,94 @@
 //! The pipelines of the surfaces' pass: one for each variant that a scene needs.
 
-use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, VertexBufferLayout, VertexFormat};
+use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, TextureFormat, VertexBufferLayout, VertexFormat};
 
 use super::draws::{Attributes, Variant};
+use super::materials::Look;
 use super::prior_sheens::NODES;
+use super::shadows::BlockerKinds;
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
+
+/// What of the scene a pipeline draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Stage {
+    /// Everything, with nothing in the way of light.
+    Unshadowed,
+    /// Depth alone, of what is opaque.
+    Depth,
+    /// What is nearest, and what is blended before it; and what of it is blocked.
+    Shadowed {
+        /// Over what a sample stands for.
+        filtered: bool,
+        blockers: BlockerKinds,
+    },
+}
 
 /// What all pipelines of the pass have in common.
 pub(super) struct Pipelines {
     pub shader: ShaderModule,
     pub layout: PipelineLayout,
+    /// With what stands in the way of light.
+    pub shadowed_layout: PipelineLayout,
     pub radiance: RadianceFormat,
+    /// Of the target that the filter of shadows goes by, where there is one.
+    pub guide: Option<TextureFormat>,
 }
 
 impl Pipelines {
     /// The pipeline of a variant; `culled` are the faces that it leaves out.
-    pub fn make(&self, device: &Device, variant: &Variant, culled: Option<wgpu::Face>) -> RenderPipeline {
-        let Variant { look, attributes, lights, mirrored } = *variant;
+    pub fn make(&self, device: &Device, variant: &Variant, stage: Stage, culled: Option<wgpu::Face>) -> RenderPipeline {
+        let Variant { look, attributes, mirrored, .. } = *variant;
+        let samples = if stage == Stage::Unshadowed { self.radiance.samples } else { 1 };
+        let constants = self.constants(variant, stage, samples);
+        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let vertex = if attributes.any { "surfaces_vertex_textured" } else { "surfaces_vertex" };
+        let layouts = vertex_layouts(attributes);
+        let targets = self.targets(look, stage);
+        let fragment = fragment(variant, stage, samples).map(|entry_point| wgpu::FragmentState {
+            module: &self.shader,
+            entry_point: Some(entry_point),
+            compilation_options: compilation_options.clone(),
+            targets: &targets,
+        });
+        let is_shadowed = matches!(stage, Stage::Shadowed { .. });
+        let compare = if is_shadowed && !look.blend { wgpu::CompareFunction::Equal } else { wgpu::CompareFunction::Greater };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("surfaces"),
+            layout: Some(if is_shadowed { &self.shadowed_layout } else { &self.layout }),
+            vertex: wgpu::VertexState {
+                module: &self.shader,
+                entry_point: Some(vertex),
+                compilation_options,
+                buffers: &layouts[..if attributes.any { layouts.len() } else { 2 }],
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: culled,
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(!look.blend && !is_shadowed),
+                depth_compare: Some(compare),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+            fragment,
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// The values of the shader's `override` constants.
+    fn constants(&self, variant: &Variant, stage: Stage, samples: u32) -> [(&'static str, f64); 19] {
+        let Variant { look, lights, .. } = *variant;
         let number = |on: bool| f64::from(u8::from(on));
-        let constants = [
+        let (shadowed, filtered, blockers) = match stage {
+            Stage::Shadowed { filtered, blockers } => (true, filtered, blockers),
+            Stage::Unshadowed | Stage::Depth => (stage == Stage::Depth, samples > 1, BlockerKinds::default()),
+        };
+        [
             ("VARIANT_SHEEN", number(look.sheen)),
             ("VARIANT_SPECULAR", number(look.specular)),
             ("VARIANT_RECIPROCAL", number(look.reciprocal)),
@@ -30,58 +100,52 @@ impl Pipelines {
             ("VARIANT_QUADS", number(lights.quads)),
             ("VARIANT_POLYGONS", number(lights.polygons)),
             ("VARIANT_PUNCTUAL", number(lights.punctual)),
-            ("VARIANT_SHARP", number(look.sharp && self.radiance.samples > 1)),
-            ("VARIANT_FILTERED", number(self.radiance.samples > 1)),
+            ("VARIANT_SHADOWED", number(shadowed)),
+            ("VARIANT_OPACITIES", number(blockers.opacities)),
+            ("VARIANT_MORE_TRIANGLES", number(blockers.more)),
+            ("VARIANT_SHARP", number(look.sharp && samples > 1)),
+            ("VARIANT_DITHERED", number(samples > 1)),
+            ("VARIANT_FILTERED", number(filtered)),
             ("PRIOR_SHEENS_NODES", f64::from(NODES)),
             ("SURFACES_GREATEST", self.radiance.greatest()),
-        ];
-        let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let vertex = if attributes.any { "surfaces_vertex_textured" } else { "surfaces_vertex" };
-        let fragment = match (attributes.any, self.radiance.samples > 1) {
+        ]
+    }
+
+    fn targets(&self, look: Look, stage: Stage) -> Vec<Option<wgpu::ColorTargetState>> {
+        let blend = look.blend.then_some(if look.unlit { OVER_UNLIT } else { OVER });
+        let write_mask = wgpu::ColorWrites::ALL;
+        let radiance = wgpu::ColorTargetState { format: self.radiance.texture, blend, write_mask };
+        // The filter goes by what is opaque.
+        let write_mask = if look.blend { wgpu::ColorWrites::empty() } else { write_mask };
+        let guide = |format| wgpu::ColorTargetState { format, blend: None, write_mask };
+        match stage {
+            Stage::Unshadowed => vec![Some(radiance)],
+            Stage::Depth => Vec::new(),
+            Stage::Shadowed { .. } => {
+                let blocked = wgpu::ColorTargetState { blend: look.blend.then_some(OVER), ..radiance.clone() };
+                [Some(radiance), Some(blocked)].into_iter().chain(self.guide.map(|format| Some(guide(format)))).collect()
+            }
+        }
+    }
+}
+
+/// The fragment shader's entry point; none where there is only depth.
+fn fragment(variant: &Variant, stage: Stage, samples: u32) -> Option<&'static str> {
+    let (is_textured, is_mask) = (variant.attributes.any, variant.look.mask);
+    Some(match stage {
+        Stage::Unshadowed => match (is_textured, samples > 1) {
             (false, false) => "surfaces_fragment",
             (true, false) => "surfaces_fragment_textured",
             (false, true) => "surfaces_multisampled",
-            (true, true) if look.mask => "surfaces_multisampled_cutout",
+            (true, true) if is_mask => "surfaces_multisampled_cutout",
             (true, true) => "surfaces_multisampled_textured",
-        };
-        let layouts = vertex_layouts(attributes);
-        let blend = look.blend.then_some(if look.unlit { OVER_UNLIT } else { OVER });
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("surfaces"),
-            layout: Some(&self.layout),
-            vertex: wgpu::VertexState {
-                module: &self.shader,
-                entry_point: Some(vertex),
-                compilation_options: compilation_options.clone(),
-                buffers: &layouts[..if attributes.any { layouts.len() } else { 2 }],
-            },
-            primitive: wgpu::PrimitiveState {
-                front_face: if mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
-                cull_mode: culled,
-                ..Default::default()
-            },
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(!look.blend),
-                depth_compare: Some(wgpu::CompareFunction::Greater),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: wgpu::MultisampleState { count: self.radiance.samples, ..Default::default() },
-            fragment: Some(wgpu::FragmentState {
-                module: &self.shader,
-                entry_point: Some(fragment),
-                compilation_options,
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: self.radiance.texture,
-                    blend,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
+        },
+        Stage::Depth if is_mask && is_textured => "shadowed_cutout_textured",
+        Stage::Depth if is_mask => "shadowed_cutout",
+        Stage::Depth => return None,
+        Stage::Shadowed { .. } if is_textured => "shadowed_fragment_textured",
+        Stage::Shadowed { .. } => "shadowed_fragment",
+    })
 }
 
 /// What lies before the rest: radiance, and the share of the pixel that is lit.

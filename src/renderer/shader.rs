@@ -19,13 +19,21 @@ pub const SURFACES_WGSL: &str = concat!(
     // How it scatters light, and the point where it does so.
     include_str!("../../shaders/passes/lobes.wgsl"),
     include_str!("../../shaders/passes/receiver.wgsl"),
-    // What of the lights arrives there.
+    // What of the lights arrives there, and which of them get a ray.
+    include_str!("../../shaders/passes/randoms.wgsl"),
     include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/points.wgsl"),
+    include_str!("../../shaders/passes/picks.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),
     // All of it together.
     include_str!("../../shaders/passes/shading.wgsl"),
+    // What stands in the way.
+    include_str!("../../shaders/passes/blockers.wgsl"),
+    include_str!("../../shaders/passes/rays.wgsl"),
+    include_str!("../../shaders/passes/samples.wgsl"),
+    include_str!("../../shaders/passes/shadows.wgsl"),
     // Entry points.
     include_str!("../../shaders/passes/surfaces.wgsl"),
+    include_str!("../../shaders/passes/shadowed.wgsl"),
     include_str!("../../shaders/passes/prior_albedos.wgsl"),
 );

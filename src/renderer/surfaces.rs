@@ -10,12 +10,13 @@ use super::Gpu;
 use super::blended::Blended;
 use super::calls::{Call, Draw, Source, split};
 use super::draws::{Frustum, Variant};
-use super::pipelines::Pipelines;
+use super::pipelines::{Pipelines, Stage};
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
 use super::shader::SURFACES_WGSL;
-use super::tables;
-use super::targets::{RadianceFormat, Targets};
+use super::sample::Sample;
+use super::targets::{RadianceFormat, ShadowedTargets, Targets};
+use super::{shadows, tables};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
 use crate::scene::Settings;
@@ -35,12 +36,18 @@ struct Frame {
     padding: u32,
     ambient: Vec3,
     gain: f32,
+    sample: u32,
+    footprint: f32,
+    seed: u32,
+    end_padding: u32,
 }
 
 /// Draws a scene's surfaces.
 pub struct SurfacesPass {
     layout: BindGroupLayout,
-    made: HashMap<Variant, RenderPipeline>,
+    made: HashMap<(Variant, Stage), RenderPipeline>,
+    /// Of what stands in the way of light.
+    pub blockers_layout: BindGroupLayout,
     pipelines: Pipelines,
     frame: TrackedBuffer,
     albedos: PriorAlbedos,
@@ -51,11 +58,16 @@ pub struct SurfacesPass {
 }
 
 impl SurfacesPass {
-    pub(super) fn new(gpu: &Gpu, radiance: RadianceFormat, table: &SheenTable, resident: &Resident) -> Self {
+    pub(super) fn new(
+        gpu: &Gpu,
+        (radiance, guide): (RadianceFormat, Option<wgpu::TextureFormat>),
+        table: &SheenTable,
+        resident: &Resident,
+    ) -> Self {
         let device = &gpu.device;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("surfaces"),
-            source: wgpu::ShaderSource::Wgsl(SURFACES_WGSL.into()),
+            source: wgpu::ShaderSource::Wgsl(match std::env::var("SURF") { Ok(p) => std::fs::read_to_string(p).unwrap().into(), Err(_) => SURFACES_WGSL.into() }) /*HACK*/,
         });
         let frame = [0; size_of::<Frame>()];
         let frame = TrackedBuffer::new(device, "surfaces frame", &frame, BufferUsages::UNIFORM);
@@ -65,27 +77,33 @@ impl SurfacesPass {
             bind_group_layouts: &[Some(&layout), Some(&resident.material_layout)],
             immediate_size: 0,
         });
+        let blockers_layout = shadows::bind_group_layout(device);
+        let shadowed_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("surfaces with shadows"),
+            bind_group_layouts: &[Some(&layout), Some(&resident.material_layout), Some(&blockers_layout)],
+            immediate_size: 0,
+        });
         let albedos = PriorAlbedos::new(device);
         let tables = [tables::sheen(gpu, table), tables::ggx(gpu), albedos.view()];
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
-        let pipelines = Pipelines { shader, layout: pipeline_layout, radiance };
+        let pipelines = Pipelines { shader, layout: pipeline_layout, shadowed_layout, radiance, guide };
         let is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let triangles_a_pass = if is_software { TRIANGLES_A_PASS } else { u32::MAX };
         let made = HashMap::new();
-        let mut pass = Self { layout, made, pipelines, frame, albedos, tables, bind_group, triangles_a_pass };
-        pass.prepare(gpu, resident);
-        pass
+        Self { layout, made, blockers_layout, pipelines, frame, albedos, tables, bind_group, triangles_a_pass }
     }
 
-    /// Makes what the scene needs and does not have yet: pipelines, and the table of the other sheens' albedos.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, resident: &Resident) {
+    /// Makes what the scene needs for these stages and does not have yet: pipelines, and the table of the other sheens' albedos.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, resident: &Resident, stages: &[Stage]) {
         if resident.draws.samples_lights() {
             self.albedos.fill(gpu, &self.pipelines.shader);
         }
         for batch in &resident.draws.batches {
             let culled = (!batch.variant.look.double_sided).then_some(Face::Back);
-            let make = || self.pipelines.make(&gpu.device, &batch.variant, culled);
-            self.made.entry(batch.variant).or_insert_with(make);
+            for &stage in stages.iter().filter(|stage| !(**stage == Stage::Depth && batch.variant.look.blend)) {
+                let make = || self.pipelines.make(&gpu.device, &batch.variant, stage, culled);
+                self.made.entry((batch.variant, stage)).or_insert_with(make);
+            }
         }
     }
 
@@ -99,14 +117,46 @@ impl SurfacesPass {
         self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);
     }
 
+    /// Draws everything, with nothing in the way of light.
     pub(super) fn encode(
         &mut self,
         queue: &Queue,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
-        (resident, blended): (&Resident, &Blended),
+        things: (&Resident, &Blended),
         (view, settings, gain): (&View, &Settings, f32),
     ) {
+        self.write_frame(queue, (view, settings, gain), &Sample::FIRST);
+        let (opaque, blended) = self.draws(things, view);
+        let calls = split(opaque.into_iter().chain(blended), self.triangles_a_pass);
+        let colors = [Some(&targets.radiance)];
+        self.run(encoder, things, (&calls, Stage::Unshadowed, None), (&colors, &targets.depth, [true; 2]));
+    }
+
+    /// Draws one of each pixel's samples: depth first, so that what is hidden traces no rays; then what is seen, and what of it is
+    /// blocked by what is bound as `blockers`.
+    pub(super) fn encode_shadowed(
+        &mut self,
+        queue: &Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        (targets, stage, blockers): (&ShadowedTargets, Stage, &BindGroup),
+        things: (&Resident, &Blended),
+        (view, settings, gain, sample): (&View, &Settings, f32, &Sample),
+    ) {
+        let view = view.shifted(sample.offset(), targets.size);
+        self.write_frame(queue, (&view, settings, gain), sample);
+        let (opaque, blended) = self.draws(things, &view);
+        let calls = split(opaque.into_iter(), self.triangles_a_pass);
+        self.run(encoder, things, (&calls, Stage::Depth, None), (&[], &targets.depth, [true; 2]));
+        // Where two surfaces are equally near, the first is seen, also of those that are drawn where depth is equal.
+        let (opaque, _) = self.draws(things, &view);
+        let calls = split(opaque.into_iter().rev().chain(blended), self.triangles_a_pass);
+        let colors = [Some(&targets.radiance), Some(&targets.blocked), targets.guide.as_ref()];
+        let colors = &colors[..if targets.guide.is_some() { 3 } else { 2 }];
+        self.run(encoder, things, (&calls, stage, Some(blockers)), (colors, &targets.depth, [true, false]));
+    }
+
+    fn write_frame(&mut self, queue: &Queue, (view, settings, gain): (&View, &Settings, f32), sample: &Sample) {
         let weight = |on: bool| f32::from(u8::from(on));
         let lobes = settings.lobes;
         let frame = Frame {
@@ -120,22 +170,47 @@ impl SurfacesPass {
             padding: 0,
             ambient: settings.ambient,
             gain,
+            sample: sample.index,
+            footprint: sample.footprint(),
+            seed: sample.seed,
+            end_padding: 0,
         };
         self.frame.write(queue, bytemuck::bytes_of(&frame));
+    }
+
+    /// What the view sees that is opaque, and what is blended.
+    fn draws<'a>(
+        &self,
+        (resident, blended): (&'a Resident, &'a Blended),
+        view: &View,
+    ) -> (Vec<Draw<'a>>, impl Iterator<Item = Draw<'a>> + use<'a>) {
         let frustum = Frustum::new(view.clip_from_world, view.eye);
         let opaque = resident.draws.opaque(&frustum).map(|(batch, instances)| {
             let indices = 0..resident.meshes[batch.mesh].index_count;
             Draw { batch, instances, indices, source: Source::Mesh }
         });
-        let calls = split(opaque.chain(blended.draws(resident)), self.triangles_a_pass);
+        (opaque.collect(), blended.draws(resident))
+    }
+
+    /// Makes these calls over the targets, whose colours and whose depth are cleared first where that is asked for.
+    fn run(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        things: (&Resident, &Blended),
+        (calls, stage, blockers): (&[Call], Stage, Option<&BindGroup>),
+        (colors, depth, clears): (&[Option<&TextureView>], &TextureView, [bool; 2]),
+    ) {
         // The first pass clears the targets, whatever there is to draw.
         let passes = calls.chunk_by(|one, next| one.pass == next.pass).chain(calls.is_empty().then_some(&[][..]));
         for (index, calls) in passes.enumerate() {
-            let mut pass = begin(encoder, targets, index == 0);
+            let mut pass = begin(encoder, colors, depth, clears.map(|clears| clears && index == 0));
             pass.set_bind_group(0, &self.bind_group, &[]);
+            if let Some(blockers) = blockers {
+                pass.set_bind_group(2, blockers, &[]);
+            }
             let mut before = None;
             for Call { draw, .. } in calls {
-                self.bind(&mut pass, (resident, blended), draw, before.replace(draw));
+                self.bind(&mut pass, things, (draw, before.replace(draw)), stage);
                 pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
             }
         }
@@ -146,15 +221,15 @@ impl SurfacesPass {
         &self,
         pass: &mut RenderPass,
         (resident, blended): (&Resident, &Blended),
-        draw: &Draw,
-        before: Option<&Draw>,
+        (draw, before): (&Draw, Option<&Draw>),
+        stage: Stage,
     ) {
         let mesh = &resident.meshes[draw.batch.mesh];
         let is_same_batch = before.is_some_and(|before| std::ptr::eq(before.batch, draw.batch));
         if !is_same_batch {
             pass.set_bind_group(1, resident.textures(draw.batch), &[]);
             bind_vertices(pass, mesh, &resident.constants, &draw.batch.variant);
-            pass.set_pipeline(&self.made[&draw.batch.variant]);
+            pass.set_pipeline(&self.made[&(draw.batch.variant, stage)]);
         }
         let is_same_source = before.is_some_and(|before| before.source == draw.source);
         if !(is_same_source && (is_same_batch || draw.source == Source::Sorted)) {
@@ -168,23 +243,29 @@ impl SurfacesPass {
 /// until the pass ends.
 const TRIANGLES_A_PASS: u32 = 1 << 16;
 
-/// Begins a pass over the targets, which are cleared first or keep what they hold.
-fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, targets: &Targets, clears: bool) -> RenderPass<'a> {
-    let (color, depth) = match clears {
-        true => (wgpu::LoadOp::Clear(wgpu::Color::BLACK), wgpu::LoadOp::Clear(0.0)),
-        false => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
-    };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("surfaces"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &targets.radiance,
+/// Begins a pass over targets, whose colours and whose depth are cleared first or keep what they hold.
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    colors: &[Option<&'a TextureView>],
+    depth: &'a TextureView,
+    [clears_colors, clears_depth]: [bool; 2],
+) -> RenderPass<'a> {
+    let color = if clears_colors { wgpu::LoadOp::Clear(wgpu::Color::BLACK) } else { wgpu::LoadOp::Load };
+    let far = if clears_depth { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
+    let attachment = |view: &Option<&'a TextureView>| {
+        view.map(|view| wgpu::RenderPassColorAttachment {
+            view,
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations { load: color, store: wgpu::StoreOp::Store },
-        })],
+        })
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("surfaces"),
+        color_attachments: &colors.iter().map(attachment).collect::<Vec<_>>(),
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &targets.depth,
-            depth_ops: Some(wgpu::Operations { load: depth, store: wgpu::StoreOp::Store }),
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: far, store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         }),
         ..Default::default()
@@ -267,7 +348,7 @@ mod tests {
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
         let members =
-            members!(Frame { clip_from_world, eye, diffuse, specular, sheen, emission, origin, ambient, gain });
+            members!(Frame { clip_from_world, eye, diffuse, specular, sheen, emission, origin, ambient, gain, sample, footprint, seed });
         assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
     }
 }

@@ -53,6 +53,11 @@ impl RadianceFormat {
         }
     }
 
+    /// Whether the adapter draws into a format, without blending.
+    pub(super) fn draws(adapter: &wgpu::Adapter, format: TextureFormat) -> bool {
+        adapter.get_texture_format_features(format).allowed_usages.contains(TextureUsages::RENDER_ATTACHMENT)
+    }
+
     fn is_drawn_by(self, adapter: &wgpu::Adapter) -> bool {
         let features = adapter.get_texture_format_features(self.texture);
         // In OpenGL, multisampled textures cannot be read: with wgpu they turn out black.
@@ -62,6 +67,52 @@ impl RadianceFormat {
             && features.flags.sample_count_supported(self.samples)
             && is_read
     }
+}
+
+/// What a frame with shadows is drawn into: one sample a pixel.
+pub struct ShadowedTargets {
+    pub size: [u32; 2],
+    /// With nothing in the way of light.
+    pub radiance: TextureView,
+    /// What of it is blocked.
+    pub blocked: TextureView,
+    /// What the filter of shares goes by, where there is one.
+    pub guide: Option<TextureView>,
+    pub depth: TextureView,
+}
+
+impl ShadowedTargets {
+    /// `size` is positive and within the device's limit for textures.
+    pub fn new(device: &Device, size: [u32; 2], (format, guide): (TextureFormat, Option<TextureFormat>)) -> Self {
+        let bound = |label, format| attachment(device, label, (size, 1, format), TextureUsages::TEXTURE_BINDING);
+        Self {
+            size,
+            radiance: bound("radiance", format),
+            blocked: bound("blocked", format),
+            guide: guide.map(|format| bound("guide", format)),
+            depth: attachment(device, "depth", (size, 1, DEPTH_FORMAT), TextureUsages::empty()),
+        }
+    }
+}
+
+/// A texture that is drawn into, and used otherwise too.
+pub fn attachment(
+    device: &Device,
+    label: &str,
+    (size, samples, format): ([u32; 2], u32, TextureFormat),
+    usage: TextureUsages,
+) -> TextureView {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: usage | TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Radiance and depth of one frame.
@@ -74,24 +125,11 @@ pub struct Targets {
 impl Targets {
     /// `size` is positive and within the device's limit for textures.
     pub fn new(device: &Device, size: [u32; 2], format: RadianceFormat) -> Self {
-        let create = |label, texture_format, usage| {
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: format.samples,
-                dimension: wgpu::TextureDimension::D2,
-                format: texture_format,
-                usage,
-                view_formats: &[],
-            });
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
-        };
-        let attachment = TextureUsages::RENDER_ATTACHMENT;
+        let RadianceFormat { texture, samples } = format;
         Self {
             size,
-            radiance: create("radiance", format.texture, attachment | TextureUsages::TEXTURE_BINDING),
-            depth: create("depth", DEPTH_FORMAT, attachment),
+            radiance: attachment(device, "radiance", (size, samples, texture), TextureUsages::TEXTURE_BINDING),
+            depth: attachment(device, "depth", (size, samples, DEPTH_FORMAT), TextureUsages::empty()),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! From a camera and a picture's size to what the vertex shader needs.
 
-use glam::{DMat4, DVec4, Mat4, Vec3, Vec4};
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec3, Vec4};
 
 use crate::scene::{Camera, Projection};
 
@@ -52,6 +52,17 @@ pub struct View {
 }
 
 impl View {
+    /// The same moved by a part of a pixel: what lies that far to the right of a pixel's centre, and below it, of `size` pixels in
+    /// all, comes to lie there.
+    pub fn shifted(self, [right, down]: [f32; 2], [width, height]: [u32; 2]) -> Self {
+        let shift = DMat4::from_translation(DVec3::new(
+            -2.0 * f64::from(right) / f64::from(width),
+            2.0 * f64::from(down) / f64::from(height),
+            0.0,
+        ));
+        Self { clip_from_world: (shift * self.clip_from_world.as_dmat4()).as_mat4(), ..self }
+    }
+
     /// What the camera sees in the `tile` of a picture of `size` pixels.
     pub fn new(camera: &Camera, size: [u32; 2], tile: Rect) -> Self {
         let [width, height] = size.map(f64::from);

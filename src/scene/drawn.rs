@@ -53,7 +53,12 @@ impl<'a> Drawn<'a> {
 
     /// The light whose emitter the instance of this index is, if there is one.
     pub fn light(&self, instance: usize) -> Option<&Light> {
-        self.light_of[instance].map(|index| &self.lights[index])
+        self.light_index(instance).map(|index| &self.lights[index])
+    }
+
+    /// Its index in `lights`.
+    pub fn light_index(&self, instance: usize) -> Option<usize> {
+        self.light_of[instance]
     }
 
     /// Whether the instance of this index is drawn: all are, but lamps where lights are not visible.

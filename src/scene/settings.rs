@@ -9,6 +9,8 @@ pub struct Settings {
     pub lobes: Lobes,
     /// Whether lamps are drawn: emitters that light the scene, and of whose seen surface at least half glows.
     pub lights_visible: bool,
+    /// Whether surfaces stand in the way of light.
+    pub shadows: bool,
     /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
     pub ambient: Vec3,
     /// Exposure value: radiance is multiplied by `2^exposure` on its way into a .png. Linear pictures do not depend on
@@ -23,6 +25,7 @@ impl Default for Settings {
         Self {
             lobes: Lobes::default(),
             lights_visible: true,
+            shadows: true,
             ambient: Vec3::ZERO,
             exposure: 0.0,
             tone: ToneCurve::default(),

@@ -62,6 +62,12 @@ pub struct PictureArgs {
     /// Lamps are drawn: emitters that light the scene and of whose surface at least half glows [default: on]
     #[arg(long, value_enum, value_name = "on|off")]
     pub lights_visible: Option<Switch>,
+    /// Surfaces stand in the way of light [default: on]
+    #[arg(long, value_enum, value_name = "on|off")]
+    pub shadows: Option<Switch>,
+    /// Another seed gives other noise; the same one, with the same driver, the same picture
+    #[arg(long, default_value_t = 0, value_name = "N", allow_negative_numbers = true)]
+    pub seed: u32,
     /// Radiance that arrives from everywhere, linear Rec. 709, each >= 0 [default: 0,0,0]
     #[arg(long, value_name = "R,G,B", value_parser = read(Value::radiance), allow_hyphen_values = true)]
     pub ambient: Option<Vec3>,
@@ -96,6 +102,7 @@ impl PictureArgs {
         Edits {
             lobes: self.lobes,
             lights_visible: self.lights_visible.map(|switch| switch == Switch::On),
+            shadows: self.shadows.map(|switch| switch == Switch::On),
             ambient: self.ambient,
             // The radiance that is given is the one that is meant, however a state dims it.
             ambient_strength: self.ambient.map(|_| 1.0),

@@ -8,7 +8,7 @@ use serde_json::json;
 use velour::file::{check_writable, write_atomically};
 use velour::picture::{DisplayImage, Format, ToneCurve};
 use velour::reference::{self, Effort, Options, Picture, ReferenceError};
-use velour::scene::Camera;
+use velour::scene::{Camera, Settings};
 
 use crate::comment::command;
 use crate::console::{complain, say};
@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::interrupt::{ENDING, listen};
 use crate::output::check_apart;
-use crate::picture_args::{PictureArgs, Switch};
+use crate::picture_args::PictureArgs;
 use crate::progress::with_progress;
 use crate::timing::Timing;
 
@@ -29,15 +29,9 @@ pub struct Reference {
     /// Samples a pixel
     #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub spp: u32,
-    /// Another seed gives other noise; the same one the same picture, on any number of threads
-    #[arg(long, default_value_t = 0, value_name = "N", allow_negative_numbers = true)]
-    pub seed: u64,
     /// Surfaces that light may bounce off before the one that is seen; 0 is direct light alone; at most 1000
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
     pub max_bounces: u32,
-    /// Surfaces cast shadows
-    #[arg(long, default_value = "on", value_enum, value_name = "on|off")]
-    pub shadows: Switch,
     /// Samples lie all over the pixel, or at its centre as with `velour render --msaa 1`
     #[arg(long, default_value = "box", value_enum, value_name = "box|centre")]
     pub filter: Filter,
@@ -63,10 +57,10 @@ pub enum SpecularModel {
 }
 
 impl Reference {
-    pub fn options(&self) -> Options {
+    pub fn options(&self, settings: &Settings) -> Options {
         Options {
             max_bounces: self.max_bounces,
-            shadows: self.shadows == Switch::On,
+            shadows: settings.shadows,
             filter: match self.filter {
                 Filter::Box => reference::Filter::Box,
                 Filter::Centre => reference::Filter::Centre,
@@ -89,8 +83,8 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
     if let Some(errors) = &arguments.errors {
         check_apart(errors, &inputs.scene, &arguments.picture.files())?;
     }
-    let effort = Effort { samples: arguments.spp.into(), seed: arguments.seed };
-    let rendered = render(&inputs, &arguments.picture, arguments.options(), effort, &mut timing)?;
+    let effort = Effort { samples: arguments.spp.into(), seed: arguments.picture.seed.into() };
+    let rendered = render(&inputs, &arguments.picture, arguments.options(&inputs.edits.settings()), effort, &mut timing)?;
     if let Some(errors) = &arguments.errors {
         let bytes = rendered.picture.errors.to_exr_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(errors, &bytes).map_err(Failure::input)?;

@@ -5,7 +5,7 @@ use serde_json::json;
 use velour::file::write_atomically;
 use velour::picture::{DisplayImage, Format};
 use velour::renderer::device::{self, Gpu};
-use velour::renderer::{Offscreen, RadianceFormat, RenderError};
+use velour::renderer::{Effort, Offscreen, RadianceFormat, RenderError, SAMPLES};
 use velour::scene::{Camera, Edits, Layering, Scene, Settings};
 
 use crate::comment::command;
@@ -22,9 +22,13 @@ use crate::without_device;
 pub struct Render {
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// Samples a pixel; with 1 each pixel is the value at its centre; an adapter that has no 4 draws 1, and says so
+    /// With 1 each pixel is the value at its centre. With 4 it is a mean over the pixel: without shadows of 4 samples, and an adapter
+    /// that has no 4 draws 1, and says so; with shadows of all its samples
     #[arg(long, default_value = "4", value_name = "1|4", value_parser = samples)]
     pub msaa: u32,
+    /// Samples a pixel where there are shadows: each has a ray to a point of every light, but of no more than 4 lights
+    #[arg(long, default_value_t = SAMPLES, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub spp: u32,
     /// What `velour info` prints of an adapter, or a part of it; case does not count
     #[arg(long, value_name = "NAME-PART")]
     pub adapter: Option<String>,
@@ -106,6 +110,7 @@ fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> 
     };
     let renderer = timing.measure("pipelines", || prepare(gpu, samples, table, &drawn));
     let mut renderer = renderer.map_err(failure)?;
+    renderer.effort = Effort { samples: arguments.spp, seed: arguments.picture.seed, spread: arguments.msaa > 1 };
     let radiance = renderer.radiance();
     let (bytes, exposed) = match format {
         Format::Png => {

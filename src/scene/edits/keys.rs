@@ -83,12 +83,13 @@ impl Keyed for LightEdits {
 /// What is no thing's but the picture's. A camera's name is of the scene and read elsewhere.
 impl Keyed for Edits {
     const KEYS: &'static [&'static str] =
-        &["lobes", "lights-visible", "ambient", "ambient-strength", "exposure", "tonemap"];
+        &["lobes", "lights-visible", "shadows", "ambient", "ambient-strength", "exposure", "tonemap"];
 
     fn set(&mut self, key: &str, value: &Value) -> Result<(), String> {
         match key {
             "lobes" => self.lobes = Some(value.lobes()?),
             "lights-visible" => self.lights_visible = Some(value.switch()?),
+            "shadows" => self.shadows = Some(value.switch()?),
             "ambient" => self.ambient = Some(value.radiance()?),
             "ambient-strength" => self.ambient_strength = Some(value.strength()?),
             "exposure" => self.exposure = Some(value.exposure()?),
@@ -102,6 +103,7 @@ impl Keyed for Edits {
         let entries = [
             entry("lobes", self.lobes),
             entry("lights-visible", self.lights_visible.map(Value::Switch)),
+            entry("shadows", self.shadows.map(Value::Switch)),
             entry("ambient", self.ambient),
             entry("ambient-strength", self.ambient_strength),
             entry("exposure", self.exposure),

@@ -29,6 +29,8 @@ pub struct Edits {
     pub lobes: Option<Lobes>,
     /// Whether emitters that light the scene are drawn.
     pub lights_visible: Option<bool>,
+    /// Whether surfaces stand in the way of light.
+    pub shadows: Option<bool>,
     /// Radiance that arrives from everywhere, linear Rec. 709, >= 0.
     pub ambient: Option<Vec3>,
     /// A factor of that radiance, >= 0; at 0 its hue is kept.
@@ -110,6 +112,7 @@ impl Edits {
         Self {
             lobes: later.lobes.or(self.lobes),
             lights_visible: later.lights_visible.or(self.lights_visible),
+            shadows: later.shadows.or(self.shadows),
             ambient: later.ambient.or(self.ambient),
             ambient_strength: later.ambient_strength.or(self.ambient_strength),
             exposure: later.exposure.or(self.exposure),
@@ -125,6 +128,7 @@ impl Edits {
         Settings {
             lobes: self.lobes.unwrap_or(default.lobes),
             lights_visible: self.lights_visible.unwrap_or(default.lights_visible),
+            shadows: self.shadows.unwrap_or(default.shadows),
             ambient: scaled(self.ambient.unwrap_or(default.ambient), self.ambient_strength),
             exposure: match self.exposure {
                 Some(Exposure::Stops(stops)) => stops,

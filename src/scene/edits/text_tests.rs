@@ -52,6 +52,7 @@ fn full() -> Edits {
     Edits {
         lobes: Some(Lobes { sheen: true, ..Lobes::NONE }),
         lights_visible: Some(false),
+        shadows: Some(false),
         ambient: Some(Vec3::new(0.1, 0.2, 0.3)),
         ambient_strength: Some(1.5),
         exposure: Some((-2.0).into()),
@@ -158,7 +159,7 @@ fn errors_name_line_and_key() {
         ("ambient = [1, 1, nan]", "line 1, ambient: give three finite numbers"),
         ("exposure = 1979-05-27", "line 1, exposure: give a number, a list of numbers, or a text"),
         ("lights-visible = 'on'", "line 1, lights-visible: give true or false"),
-        ("exposer = 1", "line 1, exposer: the keys are lobes, lights-visible, ambient"),
+        ("exposer = 1", "line 1, exposer: the keys are lobes, lights-visible, shadows, ambient"),
         ("exposure = 1\nexposure = 2", "line 2: "),
         ("exposure = = 2", "line 1: "),
         ("alpha = 0.5\n\u{1}", "line 2: "),

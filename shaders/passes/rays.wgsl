@@ -1,0 +1,144 @@
+// Rays from lit points to lights, through the trees of what blocks them.
+
+// What a triangle is to a ray.
+struct RaysMeeting {
+    // In the tree's units; negative where the ray misses it.
+    distance: f32,
+    // Weights of its second and third corner.
+    weights: vec2f,
+}
+
+// As deep as a tree may be: src/bvh.rs builds none that is deeper.
+const RAYS_STACK = 32;
+// A group that is a root alone; and below its upper eight bits.
+const RAYS_ROOT = 0x80000000u;
+const RAYS_CHILDREN = 0xffffffu;
+// How far outside an edge a triangle is still met, in weights of its corners, so that neighbours leave no gap.
+const RAYS_EDGE = 2e-6;
+// Components of directions are no smaller.
+const RAYS_LEAST = 1e-20;
+// A light's own emitter stands in its way up to this share of the distance to it; others up to that one.
+const RAYS_OWN_UNTIL = 0.999;
+const RAYS_UNTIL = 0.99999;
+// The share of light below which nothing is left of it.
+const RAYS_LEAST_PASSING = 1e-6;
+
+// The share of light, in [0, 1], that comes through to a point along a unit direction, from a light at a distance. It is stopped from the
+// front and from behind by what is opaque, and by what is blended to the share of its opacity.
+//
+// Ylitie, Karras and Laine 2017, section 4: groups of children and of triangles as bits, nearer children first. Loops are left at their ends:
+// software drivers run their bodies to there, whatever is left to do.
+fn rays_passing(p_world: vec3f, direction: vec3f, distance: f32, light: u32) -> f32 {
+    let origin = (p_world - blockers_all.center) / blockers_all.unit;
+    let far = distance / blockers_all.unit;
+    let is_up = direction >= vec3f(0.0);
+    let least = select(vec3f(-RAYS_LEAST), vec3f(RAYS_LEAST), is_up);
+    let inverse = 1.0 / select(direction, least, abs(direction) < vec3f(RAYS_LEAST));
+    let octant = dot(select(vec3u(0u), vec3u(4u, 2u, 1u), is_up), vec3u(1u));
+    // The first node's place and, in the upper eight bits, which of its siblings are to be visited; in the lower ones, which are nodes.
+    var stack: array<vec2u, RAYS_STACK>;
+    stack[0] = vec2u(blockers_all.roots.y, RAYS_ROOT);
+    var height = select(1, 0, blockers_all.roots.y == BLOCKERS_NONE);
+    var group = vec2u(blockers_all.roots.x, RAYS_ROOT);
+    var passing = 1.0;
+    loop {
+        let bit = firstLeadingBit(group.y);
+        let slot = (bit - 24u) ^ octant;
+        let node = BLOCKERS_NODE * (group.x + countOneBits(group.y & ~(0xffffffffu << slot) & 0xffu));
+        group.y &= ~(1u << bit);
+        if group.y > RAYS_CHILDREN && height < RAYS_STACK {
+            stack[height] = group;
+            height++;
+        }
+        let head = blockers_nodes[node];
+        let base = blockers_nodes[node + 1u];
+        let hits = rays_children(node, head, base.zw, origin, inverse, far * RAYS_UNTIL, octant);
+        group = vec2u(base.x, (hits & ~RAYS_CHILDREN) | (head.w >> 24u));
+        var triangles = hits & RAYS_CHILDREN;
+        loop {
+            let index = base.y + (firstTrailingBit(triangles) & 31u);
+            let share = rays_passing_triangle(index, origin, direction, far, light);
+            passing *= select(1.0, share, triangles != 0u);
+            triangles &= triangles - 1u;
+            continuing {
+                break if triangles == 0u;
+            }
+        }
+        let is_stopped = passing < RAYS_LEAST_PASSING;
+        if group.y <= RAYS_CHILDREN && height > 0 && !is_stopped {
+            height--;
+            group = stack[height];
+        }
+        continuing {
+            break if is_stopped || group.y <= RAYS_CHILDREN;
+        }
+    }
+    return select(passing, 0.0, passing < RAYS_LEAST_PASSING);
+}
+
+// Which of a node's children a ray meets before a distance: of nodes in the upper eight bits, in the order of the octant; of triangles in the lower ones.
+fn rays_children(node: u32, head: vec4u, children: vec2u, origin: vec3f, inverse: vec3f, until: f32, octant: u32) -> u32 {
+    let extent = bitcast<vec3f>(((vec3u(head.w) >> vec3u(0u, 8u, 16u)) & vec3u(0xffu)) << vec3u(23u));
+    let scale = extent * inverse;
+    let start = (bitcast<vec3f>(head.xyz) - origin) * inverse;
+    let x = blockers_nodes[node + 2u];
+    let y = blockers_nodes[node + 3u];
+    let z = blockers_nodes[node + 4u];
+    // Minima of four and of four, then maxima.
+    let near_x = select(x.zw, x.xy, inverse.x > 0.0);
+    let near_y = select(y.zw, y.xy, inverse.y > 0.0);
+    let near_z = select(z.zw, z.xy, inverse.z > 0.0);
+    let far_x = select(x.xy, x.zw, inverse.x > 0.0);
+    let far_y = select(y.xy, y.zw, inverse.y > 0.0);
+    let far_z = select(z.xy, z.zw, inverse.z > 0.0);
+    return rays_four(vec3u(near_x.x, near_y.x, near_z.x), vec3u(far_x.x, far_y.x, far_z.x), children.x, scale, start, until, octant)
+        | rays_four(vec3u(near_x.y, near_y.y, near_z.y), vec3u(far_x.y, far_y.y, far_z.y), children.y, scale, start, until, octant);
+}
+
+fn rays_four(near: vec3u, far: vec3u, children: u32, scale: vec3f, start: vec3f, until: f32, octant: u32) -> u32 {
+    let enter = max(max(rays_planes(near.x, scale.x, start.x), rays_planes(near.y, scale.y, start.y)),
+        max(rays_planes(near.z, scale.z, start.z), vec4f(0.0)));
+    let leave = min(min(rays_planes(far.x, scale.x, start.x), rays_planes(far.y, scale.y, start.y)),
+        min(rays_planes(far.z, scale.z, start.z), vec4f(until)));
+    let metas = rays_bytes(children);
+    // A node's number is 24 or more; a leaf's says how many triangles it has, a bit each, and where they begin.
+    let is_node = (metas & vec4u(24u)) == vec4u(24u);
+    let place = (metas ^ select(vec4u(0u), vec4u(octant), is_node)) & vec4u(31u);
+    let bits = select(vec4u(0u), (metas >> vec4u(5u)) << place, enter <= leave);
+    return bits.x | bits.y | bits.z | bits.w;
+}
+
+fn rays_bytes(word: u32) -> vec4u {
+    return (vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(0xffu);
+}
+
+fn rays_planes(word: u32, scale: f32, start: f32) -> vec4f {
+    return vec4f(rays_bytes(word)) * scale + start;
+}
+
+// The share of light that a triangle lets through.
+fn rays_passing_triangle(index: u32, origin: vec3f, direction: vec3f, distance: f32, light: u32) -> f32 {
+    let triangle = blockers_triangle(index);
+    let meeting = rays_meeting(triangle, origin, direction);
+    let until = distance * select(RAYS_UNTIL, RAYS_OWN_UNTIL, triangle.light == light);
+    if meeting.distance <= 0.0 || meeting.distance >= until {
+        return 1.0;
+    }
+    if !VARIANT_OPACITIES || triangle.opacity == BLOCKERS_NONE {
+        return 0.0;
+    }
+    return 1.0 - blockers_opacity(triangle.opacity, meeting.weights);
+}
+
+// Moeller and Trumbore 1997.
+fn rays_meeting(triangle: BlockersTriangle, origin: vec3f, direction: vec3f) -> RaysMeeting {
+    let across = cross(direction, triangle.second_edge);
+    let slope = dot(triangle.first_edge, across);
+    let to_origin = origin - triangle.corner;
+    let over = cross(to_origin, triangle.first_edge);
+    // Without area it is met nowhere.
+    let factor = select(0.0, 1.0 / slope, slope != 0.0);
+    let weights = factor * vec2f(dot(to_origin, across), dot(direction, over));
+    let is_met = slope != 0.0 && min(weights.x, weights.y) >= -RAYS_EDGE && weights.x + weights.y <= 1.0 + RAYS_EDGE;
+    return RaysMeeting(select(-1.0, factor * dot(triangle.second_edge, over), is_met), weights);
+}

@@ -1,0 +1,210 @@
+//! What stands in the way of light, as shaders read it: the hierarchies over a scene's triangles, and what of them lets light
+//! through.
+//!
+//! There are two trees: emitters move with their lights, and may be hidden; all else stays where it was loaded. The first is
+//! built anew where lights change, the second once.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use rayon::prelude::*;
+
+use crate::bvh::{Bvh, Triangle};
+use crate::scene::{AlphaMode, Drawn, Filter, Material, Mesh, Sampler, Scene, TextureSlot, Wrap};
+
+/// `BLOCKERS_NONE` of `blockers.wgsl`.
+const NONE: u32 = u32::MAX;
+
+/// `BlockersTriangle` of `blockers.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(super) struct GpuTriangle {
+    corner: Vec3,
+    light: u32,
+    first_edge: Vec3,
+    opacity: u32,
+    second_edge: Vec3,
+    padding: u32,
+}
+
+/// Sixteen bytes of `blockers_nodes`.
+pub(super) type Words = [u32; 4];
+
+/// A tree as the shaders read it.
+pub(super) struct Tree {
+    pub nodes: Vec<[Words; 5]>,
+    pub triangles: Vec<GpuTriangle>,
+}
+
+/// How triangles that are cut out or blended let light through.
+#[derive(Default)]
+pub(super) struct Opacities {
+    /// Of each triangle: its corners' texture coordinates, opacities, and its look.
+    pub records: Vec<[Words; 2]>,
+    /// By material.
+    pub looks: Vec<[Words; 2]>,
+    /// The alphas of images, one after the other.
+    pub alphas: Vec<u8>,
+    /// By instance, the record of its first triangle.
+    first_of: Vec<Option<u32>>,
+}
+
+/// Whose triangles a tree holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Emitters that light the scene, where they are drawn.
+    Emitters,
+    /// Everything else.
+    Others,
+}
+
+impl Kind {
+    fn holds(self, drawn: &Drawn, instance: usize) -> bool {
+        let is_emitter = drawn.light_index(instance).is_some();
+        is_emitter == (self == Self::Emitters) && drawn.is_drawn(instance)
+    }
+}
+
+/// How many triangles the emitters of a scene have, whether they are drawn or not.
+pub(super) fn emitting_triangles(drawn: &Drawn) -> usize {
+    let emitters = (0..drawn.instances.len()).filter(|&instance| drawn.light_index(instance).is_some());
+    emitters.map(|instance| mesh(drawn, instance).indices.len() / 3).sum()
+}
+
+/// The triangles of a scene of one kind, in the world: what a tree is made of. Making it is long work, which may be done
+/// on another thread.
+pub(super) struct Gathered {
+    triangles: Vec<Triangle>,
+    /// By instance: the light that it is of.
+    lights: Vec<u32>,
+}
+
+impl Gathered {
+    pub fn new(drawn: &Drawn, kind: Kind) -> Self {
+        let lights = |instance| drawn.light_index(instance).map_or(NONE, |light| light as u32);
+        let held: Vec<usize> = (0..drawn.instances.len()).filter(|&instance| kind.holds(drawn, instance)).collect();
+        let triangles = held.into_par_iter().flat_map(|instance| triangles(drawn, instance)).collect();
+        Self { triangles, lights: (0..drawn.instances.len()).map(lights).collect() }
+    }
+
+    pub fn triangles(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The tree in these units, with places of records of opacity counted from 0.
+    pub fn build(self, (center, unit): (DVec3, f64), opacities: &Opacities) -> Tree {
+        let bvh = Bvh::in_units(self.triangles, (center, unit));
+        let scaled = |vector: DVec3| (vector / unit).as_vec3();
+        let triangle = |triangle: &Triangle| {
+            let [first_edge, second_edge] = triangle.edges().map(scaled);
+            let instance = triangle.instance as usize;
+            let record = opacities.first_of[instance].map_or(NONE, |first| first + triangle.index);
+            let (light, corner) = (self.lights[instance], scaled(triangle.corner() - center));
+            GpuTriangle { corner, light, first_edge, opacity: record, second_edge, padding: 0 }
+        };
+        Tree {
+            nodes: bytemuck::pod_collect_to_vec(bvh.nodes()),
+            triangles: bvh.primitives().par_iter().map(triangle).collect(),
+        }
+    }
+}
+
+impl Tree {
+    /// Counts nodes, triangles, and places of records of opacity in `blockers_nodes` from these on.
+    pub fn place(&mut self, root: usize, first_triangle: usize, first_record: usize) {
+        for node in &mut self.nodes {
+            // The first child's, and the first triangle's: `CwBvhNode` of obvhs.
+            let [children, triangles, ..] = &mut node[1];
+            *children += root as u32;
+            *triangles += first_triangle as u32;
+        }
+        for triangle in self.triangles.iter_mut().filter(|triangle| triangle.opacity != NONE) {
+            triangle.opacity = first_record as u32 + 2 * triangle.opacity;
+        }
+    }
+}
+
+/// The most nodes of a tree over so many triangles: each has two children or more, but the root.
+pub(super) fn most_nodes(triangles: usize) -> usize {
+    triangles.max(1)
+}
+
+fn mesh<'a>(drawn: &Drawn<'a>, instance: usize) -> &'a Mesh {
+    &drawn.scene.meshes[drawn.instances[instance].mesh]
+}
+
+fn triangles(drawn: &Drawn, instance: usize) -> Vec<Triangle> {
+    let (mesh, world_from_mesh) = (mesh(drawn, instance), drawn.instances[instance].world_from_mesh.as_dmat4());
+    let corner = |corner: u32| world_from_mesh.transform_point3(mesh.positions[corner as usize].as_dvec3());
+    let triangles = mesh.indices.as_chunks::<3>().0.iter().enumerate();
+    triangles.map(|(at, corners)| Triangle::new(corners.map(corner), instance as u32, at as u32)).collect()
+}
+
+impl Opacities {
+    pub fn new(drawn: &Drawn) -> Self {
+        let (scene, mut found) = (drawn.scene, Self::default());
+        let mut images: Vec<Option<u32>> = vec![None; scene.images.len()];
+        for material in &drawn.materials {
+            let look = found.look(scene, material, &mut images);
+            found.looks.push(look);
+        }
+        for instance in 0..drawn.instances.len() {
+            let mesh = mesh(drawn, instance);
+            let is_opaque = drawn.materials[mesh.material].alpha_mode == AlphaMode::Opaque;
+            found.first_of.push((!is_opaque).then_some(found.records.len() as u32));
+            if !is_opaque {
+                let record = |corners: &[u32; 3]| record(mesh, &drawn.materials[mesh.material], *corners);
+                found.records.extend(mesh.indices.as_chunks::<3>().0.iter().map(record));
+            }
+        }
+        found
+    }
+
+    /// What `blockers_texel` and `blockers_opacity` read of a material.
+    fn look(&mut self, scene: &Scene, material: &Material, images: &mut [Option<u32>]) -> [Words; 2] {
+        let cutoff: f32 = match material.alpha_mode {
+            AlphaMode::Opaque => return [[0; 4]; 2],
+            AlphaMode::Mask { cutoff } => cutoff,
+            AlphaMode::Blend => -1.0,
+        };
+        let factors = [material.opacity.to_bits(), cutoff.to_bits(), 0, 0];
+        let Some(used) = material.texture(TextureSlot::BaseColor) else { return [[0; 4], factors] };
+        let texture = scene.textures[used.texture];
+        let image = &scene.images[texture.image];
+        if image.texels.iter().all(|texel| texel[3] == u8::MAX) {
+            return [[0; 4], factors];
+        }
+        let first = *images[texture.image].get_or_insert_with(|| {
+            let first = self.alphas.len() as u32;
+            self.alphas.extend(image.texels.iter().map(|texel| texel[3]));
+            first
+        });
+        [[first, image.width, image.height, bits(texture.sampler)], factors]
+    }
+}
+
+/// As `blockers_texel` reads them.
+fn bits(sampler: Sampler) -> u32 {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => 0,
+        Wrap::Mirror => 1,
+        Wrap::Clamp => 2,
+    };
+    let [u, v] = sampler.wrap.map(wrap);
+    u | v << 2 | u32::from(sampler.magnify == Filter::Nearest) << 4
+}
+
+/// A triangle's texture coordinates and opacities; it has the look of its mesh's material.
+fn record(mesh: &Mesh, material: &Material, corners: [u32; 3]) -> [Words; 2] {
+    let uv = |corner: u32| {
+        let Some(used) = material.texture(TextureSlot::BaseColor) else { return DVec2::ZERO };
+        let at = mesh.tex_coords[used.tex_coord].get(corner as usize).copied().unwrap_or(Vec2::ZERO);
+        used.uv_from_tex_coord.as_daffine2().transform_point2(at.as_dvec2())
+    };
+    let [a, b, c] = corners.map(|corner| uv(corner).as_vec2());
+    let alpha = |corner: u32| mesh.colors.get(corner as usize).map_or(u32::from(u16::MAX), |color| color[3].into());
+    let [first, second, third] = corners.map(alpha);
+    [
+        [a.x.to_bits(), a.y.to_bits(), b.x.to_bits(), b.y.to_bits()],
+        [c.x.to_bits(), c.y.to_bits(), first | second << 16, third | (mesh.material as u32) << 16],
+    ]
+}
