@@ -9,6 +9,7 @@ mod millions;
 mod named_cases;
 mod polygons;
 mod reserved;
+mod sampler;
 mod sampling;
 mod sheen;
 mod sweeps;

@@ -1,0 +1,48 @@
+// Points drawn on lights of convex parts, and what the file says about them.
+
+struct Case {
+    m_inv: mat3x3<f32>,
+    first: u32,
+    count: u32,
+}
+
+struct Result {
+    wo: vec3<f32>,
+    share: f32,
+    form_factor: f32,
+    density: f32,
+}
+
+@group(0) @binding(0) var<storage, read_write> results: array<Result>;
+@group(0) @binding(1) var<storage, read> cases: array<Case>;
+@group(0) @binding(2) var<storage, read> parts: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> vertices: array<vec4<f32>>;
+// Two uniform numbers, and the case's index.
+@group(0) @binding(4) var<storage, read> draws: array<vec4<f32>>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&results) {
+        return;
+    }
+    let drawn = draws[id.x];
+    let case_ = cases[bitcast<u32>(drawn.z)];
+    var fan = ltc_sample_begin(drawn.x);
+    var form_factor = 0.0;
+    for (var k = case_.first; k < case_.first + case_.count; k++) {
+        let part = parts[k];
+        var outline = ltc_begin(vertices[part.x + part.y - 1u].xyz);
+        var sum = 0.0;
+        var turn = LTC_LEVEL;
+        fan = ltc_sample_part(fan);
+        for (var v = part.x; v < part.x + part.y; v++) {
+            outline = ltc_next(outline, vertices[v].xyz);
+            sum += ltc_edge(outline, case_.m_inv);
+            turn = ltc_turn(turn, outline, case_.m_inv);
+            fan = ltc_sample_edge(fan, outline.p, outline.q, outline.normal, outline.sine, case_.m_inv);
+        }
+        form_factor += max(ltc_form_factor(sum, turn, case_.m_inv, 1.0), ltc_form_factor(sum, turn, case_.m_inv, -1.0));
+    }
+    let wo = ltc_sample_point(fan, case_.m_inv, drawn.y);
+    results[id.x] = Result(wo, ltc_sample_share(fan), form_factor, ltc_density(case_.m_inv, wo));
+}
