@@ -143,28 +143,26 @@ impl Convex {
     /// From the vertices in order, either way round, with z >= 0; the polygon is convex as seen from the origin.
     pub fn new(vertices: &[DVec3]) -> Self {
         let vertices: Outline = vertices.iter().filter_map(|vertex| vertex.try_normalize()).collect();
-        let mut wedges = SmallVec::new();
-        // From the last triangle of the fan to the first, as the shader, which meets them one by one, has them.
-        for k in (2..vertices.len()).rev() {
-            for wedge in wedges_of([vertices[0], vertices[k - 1], vertices[k]]) {
-                let area = wedge.area(wedge.end);
-                wedges.push((wedge, area));
-            }
-        }
-        wedges.retain(|(_, area)| *area > 0.0);
+        let triangles = (2..vertices.len()).map(|k| [vertices[0], vertices[k - 1], vertices[k]]);
+        let measured = |wedge: Wedge| {
+            let area = wedge.area(wedge.end);
+            (wedge, area)
+        };
+        let wedges = triangles.flat_map(wedges_of).map(measured).filter(|(_, area)| *area > 0.0);
+        let wedges: SmallVec<[(Wedge, f64); 8]> = wedges.collect();
         let area = wedges.iter().map(|(_, area)| area).sum();
         Self { wedges, area }
     }
 
     /// A unit direction of the polygon from two uniform numbers in \[0, 1); none where it has no area.
     pub fn sample(&self, [azimuth, height]: [f64; 2]) -> Option<DVec3> {
-        let mut area = azimuth * self.area;
+        let mut left = azimuth * self.area;
         let (last, whole) = self.wedges.last()?;
         for (wedge, whole) in &self.wedges {
-            if area < *whole {
-                return Some(wedge.sample(area, height));
+            if left < *whole {
+                return Some(wedge.sample(left, height));
             }
-            area -= whole;
+            left -= whole;
         }
         // Past the last by rounding.
         Some(last.sample(*whole, height))

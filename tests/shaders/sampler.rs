@@ -6,6 +6,7 @@ use glam::{DVec3, Mat3, Vec3, Vec4};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::HashMap;
+use velour::reference::convex::Convex;
 use velour::reference::polygon::form_factor;
 
 /// A light of convex parts in the shading frame, and a lobe.
@@ -48,6 +49,7 @@ fn drawn(source: &str, lights: &[Light], draws: &[(usize, [f32; 2])]) -> Vec<Dra
         for part in &light.parts {
             parts.push([vertices.len() as u32, part.len() as u32]);
             vertices.extend(part.iter().map(|vertex| vertex.extend(0.0)));
+            vertices.push(polygons::area_of(part).normalize_or_zero().as_vec3().extend(0.0));
         }
     }
     let draws: Vec<Vec4> =
@@ -195,7 +197,9 @@ fn p_values(source: &str, lights: &[Light], seed: u64) -> Vec<f64> {
                 seen.push(counts.get(sides).copied().unwrap_or(0));
                 expected.push(share / whole);
             }
-            p_value(&seen, &expected)
+            let p = p_value(&seen, &expected);
+            if p < 1e-5 { println!("DBG {light:?} strays {strays} whole {whole}"); for (s, e) in seen.iter().zip(&expected) { println!("DBG   {s} {:.1}", e * SAMPLES as f64); } }
+            p
         })
         .collect()
 }
@@ -210,4 +214,42 @@ fn samples_fall_on_each_piece_in_proportion_to_its_form_factor() {
     let least = p.iter().copied().fold(1.0, f64::min);
     // One correct sampler in a thousand would fail for one of the lights.
     assert!(least > 1e-3 / p.len() as f64, "{least:e}");
+}
+
+/// The reference's point for the same numbers.
+fn exact(light: &Light, [u, v]: [f32; 2]) -> Option<DVec3> {
+    let [part] = &light.contours()[..] else { panic!("one part") };
+    let m_inv = light.m_inv.as_dmat3();
+    // A walk begins at the last vertex.
+    let mut walked = part.clone();
+    walked.rotate_right(1);
+    let above: Vec<DVec3> = clip(&walked, DVec3::Z).iter().map(|vertex| (m_inv * *vertex).with_z(vertex.z)).collect();
+    let cosine = Convex::new(&above).sample([f64::from(u), f64::from(v)])?;
+    Some((m_inv.inverse() * cosine).normalize())
+}
+
+#[test]
+fn debug() {
+    let mut random = Pcg64::seed_from_u64(5);
+    for (name, light) in lights() {
+        let draws: Vec<_> = (0..2000).map(|_| (0, [random.random(), random.random()])).collect();
+        let found = drawn(&source(), std::slice::from_ref(&light), &draws);
+        let mut off: Vec<f64> = found
+            .iter()
+            .zip(&draws)
+            .map(|(found, draw)| found.wo.as_dvec3().distance(exact(&light, draw.1).unwrap()))
+            .collect();
+        let worst = (0..off.len()).max_by(|&i, &j| off[i].total_cmp(&off[j])).unwrap();
+        let at = (draws[worst].1, found[worst].wo, exact(&light, draws[worst].1));
+        off.sort_by(f64::total_cmp);
+        if off[1980] > 1e-4 { println!(
+            "DBG {name} {:?} share {:e} twin {:e}; median {:.1e} 99% {:.1e} max {:.1e} {at:?}",
+            [light.m_inv.x_axis.x, light.m_inv.y_axis.y, light.m_inv.z_axis.x],
+            found[0].share,
+            light.share(),
+            off[1000],
+            off[1980],
+            off[1999]
+        ); }
+    }
 }

@@ -15,6 +15,7 @@ struct Result {
 
 @group(0) @binding(0) var<storage, read_write> results: array<Result>;
 @group(0) @binding(1) var<storage, read> cases: array<Case>;
+// First vertex and count; the normal of the part stands after its vertices.
 @group(0) @binding(2) var<storage, read> parts: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> vertices: array<vec4<f32>>;
 // Two uniform numbers, and the case's index.
@@ -27,21 +28,29 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let drawn = draws[id.x];
     let case_ = cases[bitcast<u32>(drawn.z)];
-    var fan = ltc_sample_begin(drawn.x);
     var form_factor = 0.0;
     for (var k = case_.first; k < case_.first + case_.count; k++) {
         let part = parts[k];
+        let side = ltc_side(vertices[part.x + part.y].xyz, vertices[part.x].xyz, true);
         var outline = ltc_begin(vertices[part.x + part.y - 1u].xyz);
         var sum = 0.0;
         var turn = LTC_LEVEL;
-        fan = ltc_sample_part(fan);
         for (var v = part.x; v < part.x + part.y; v++) {
             outline = ltc_next(outline, vertices[v].xyz);
             sum += ltc_edge(outline, case_.m_inv);
             turn = ltc_turn(turn, outline, case_.m_inv);
+        }
+        form_factor += ltc_form_factor(sum, turn, case_.m_inv, side);
+    }
+    var fan = ltc_sample_begin(drawn.x, form_factor);
+    for (var k = case_.first; k < case_.first + case_.count; k++) {
+        let part = parts[k];
+        var outline = ltc_begin(vertices[part.x + part.y - 1u].xyz);
+        fan = ltc_sample_part(fan);
+        for (var v = part.x; v < part.x + part.y; v++) {
+            outline = ltc_next(outline, vertices[v].xyz);
             fan = ltc_sample_edge(fan, outline.p, outline.q, outline.normal, outline.sine, case_.m_inv);
         }
-        form_factor += max(ltc_form_factor(sum, turn, case_.m_inv, 1.0), ltc_form_factor(sum, turn, case_.m_inv, -1.0));
     }
     let wo = ltc_sample_point(fan, case_.m_inv, drawn.y);
     results[id.x] = Result(wo, ltc_sample_share(fan), form_factor, ltc_density(case_.m_inv, wo));
