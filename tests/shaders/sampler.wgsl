@@ -8,7 +8,7 @@ struct Case {
 
 struct Result {
     wo: vec3<f32>,
-    share: f32,
+    share: f32,  // by what the fan has gone through
     form_factor: f32,
     density: f32,
 }
@@ -43,15 +43,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         form_factor += ltc_form_factor(sum, turn, case_.m_inv, side);
     }
     var fan = ltc_sample_begin(drawn.x, form_factor);
+    let start = fan.left;
     for (var k = case_.first; k < case_.first + case_.count; k++) {
         let part = parts[k];
         var outline = ltc_begin(vertices[part.x + part.y - 1u].xyz);
-        fan = ltc_sample_part(fan);
+        fan.apex = vec3(0.0);
         for (var v = part.x; v < part.x + part.y; v++) {
             outline = ltc_next(outline, vertices[v].xyz);
             fan = ltc_sample_edge(fan, outline.p, outline.q, outline.normal, outline.sine, case_.m_inv);
         }
     }
     let wo = ltc_sample_point(fan, case_.m_inv, drawn.y);
-    results[id.x] = Result(wo, ltc_sample_share(fan), form_factor, ltc_density(case_.m_inv, wo));
+    results[id.x] = Result(wo, (start - fan.left) / (2.0 * LTC_PI), form_factor, ltc_density(case_.m_inv, wo));
 }
