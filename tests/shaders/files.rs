@@ -121,8 +121,10 @@ fn the_examples_in_the_headers_compile() {
         assert_eq!(examples.len(), 1, "{name}");
         let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);
         compile(&whole).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let misspelt =
-            whole.replace("let radiance", "let radiance = nobody; let x").replace("= ltc_next(", "= ltc_walk(").replace("= ltc_sample_point(", "= ltc_sample_spot(");
+        let misspelt = whole
+            .replace("let radiance", "let radiance = nobody; let x")
+            .replace("= ltc_next(", "= ltc_walk(")
+            .replace("= ltc_sample_point(", "= ltc_sample_spot(");
         assert!(compile(&misspelt).is_err(), "{name}");
     }
 }
