@@ -10,6 +10,7 @@ mod named_cases;
 mod polygons;
 mod reserved;
 mod sampler;
+mod sampler_points;
 mod sampling;
 mod sheen;
 mod sweeps;
