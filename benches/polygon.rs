@@ -16,19 +16,23 @@ const ROUNDS: usize = 30;
 const SAMPLE: Duration = Duration::from_millis(20);
 const SPECULAR_NODES: u32 = 64;
 
-const VARIANTS: [(&str, &str); 6] = [
+const VARIANTS: [(&str, &str); 8] = [
     ("empty", "a constant of the point"),
     ("published", "published quad, GGX + diffuse, two filtered fetches"),
     ("filtered", "ltc.wgsl, the same lobes and fetches"),
     ("shipped", "ltc.wgsl, with eight loads for two fetches"),
     ("with_sheen", "  the same and the sheen, four loads more"),
     ("streamed", "  GGX + diffuse, vertices in a loop"),
+    ("one", "  GGX alone, vertices in a loop"),
+    ("sampled", "  the same and a point, ltc_sample.wgsl"),
 ];
 const EMPTY: usize = 0;
 const PUBLISHED: usize = 1;
 const FILTERED: usize = 2;
 const SHIPPED: usize = 3;
 const WITH_SHEEN: usize = 4;
+const ONE: usize = 6;
+const SAMPLED: usize = 7;
 
 /// The target, and what all variants read.
 struct Stage {
@@ -98,10 +102,12 @@ impl Stage {
     fn pipeline(&self, entry: &str) -> wgpu::RenderPipeline {
         let source = [
             include_str!("../shaders/ltc.wgsl"),
+            include_str!("../shaders/ltc_sample.wgsl"),
             include_str!("../shaders/sheen.wgsl"),
             include_str!("polygon/scene.wgsl"),
             include_str!("polygon/published.wgsl"),
             include_str!("polygon/shipped.wgsl"),
+            include_str!("polygon/sampled.wgsl"),
         ]
         .concat();
         let module = self.gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -274,6 +280,8 @@ fn main() {
     let sheen =
         median(rounds.iter().map(|round| (round[WITH_SHEEN] - round[SHIPPED]) / (round[SHIPPED] - round[EMPTY])));
     println!("the sheen adds {:.1}% of the light without it", 100.0 * sheen);
+    let point = median(rounds.iter().map(|round| (round[SAMPLED] - round[ONE]) / (round[ONE] - round[EMPTY])));
+    println!("a point on the light costs {point:.2} times one lobe's form factor with its loads");
     let [mean, greatest] = difference(&pictures, FILTERED);
     println!("published and exact diffuse form factors differ by {mean:.1e} in the mean, {greatest:.2} at most");
 }

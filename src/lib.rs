@@ -13,7 +13,7 @@
 //! | [`physics`] | the slab of fibres, stated and solved: without noise, and by random walk; GGX microfacets | |
 //! | [`fit`] | lobe to table: the sheen's, the specular base's, the slab's, each with its report | |
 //! | [`models`] | how surfaces scatter light, for path tracers: evaluate, sample, density, albedo | |
-//! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; path tracing | path tracing: `gpu` or `cli` |
+//! | [`mod@reference`] | the picture in `f64`: the exact form factor of a polygon; points of convex ones; path tracing | path tracing: `gpu` or `cli` |
 //! | `scene` | camera, material, light, mesh as loaded; what a user changes, and what is drawn; glTF in | `gpu` or `cli` |
 //! | `picture` | a linear image; .png and .exr in and out, tone curves; how two pictures differ, FLIP with `cli` | `gpu` or `cli` |
 //! | `bvh` | the hierarchy over a scene's triangles, for rays | `gpu` or `cli` |

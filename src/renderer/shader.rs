@@ -4,6 +4,7 @@
 pub const SURFACES_WGSL: &str = concat!(
     // What engines copy.
     include_str!("../../shaders/ltc.wgsl"),
+    include_str!("../../shaders/ltc_sample.wgsl"),
     include_str!("../../shaders/sheen.wgsl"),
     include_str!("../../shaders/ggx.wgsl"),
     // What a pipeline is made for.

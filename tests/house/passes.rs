@@ -11,7 +11,7 @@ use super::{files, read, root};
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
 pub const FLOORS: [&[&str]; 13] = [
     // What people copy.
-    &["ltc", "sheen", "ggx"],
+    &["ltc", "ltc_sample", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
     // Textures, looked up.
@@ -204,6 +204,8 @@ fn planted_violations_are_found() {
         ("passes/lobes", "struct LobesMore { at: Receiver }"),
         ("passes/polygons", "/* a /* nested */ comment */ alias PolygonsCount = LightsCounts; // LightsCounts"),
         ("ltc", "fn ltc_more() -> SheenLobe {}"),
+        ("ltc", "fn ltc_more(fan: LtcSampleFan) {}"),
+        ("ltc_sample", "fn ltc_sample_more() { let x = LTC_PI; }"),
         ("sheen", "fn sheen_more() { let x = LTC_PI; }"),
         ("ggx", "fn ggx_more() { return lobes_at(0.5, 0.5, 0.5); }"),
         ("passes/display", "fn display_more() { return ltc_angle(0.0, 1.0); }"),

@@ -6,13 +6,19 @@ use wgpu::naga::{self, TypeInner};
 use super::reserved::reserved;
 
 /// Each file, with the declarations that its header's example takes for granted.
-const FILES: [(&str, &str); 3] = [
+const FILES: [(&str, &str); 4] = [
     (
         "ltc.wgsl",
         "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
             var outline = ltc_begin(frame * (last - position));
             var sum = 0.0;
             var turn = LTC_LEVEL;",
+    ),
+    (
+        "ltc_sample.wgsl",
+        "struct Outline { p: vec3<f32>, q: vec3<f32>, normal: vec3<f32>, sine: f32 }
+        fn example(outline: Outline, m_inv: mat3x3<f32>, number: f32, form_factor: f32) {
+            var fan = ltc_sample_begin(number, form_factor);",
     ),
     (
         "sheen.wgsl",
@@ -94,7 +100,7 @@ fn names(source: &str) -> impl Iterator<Item = &str> {
 }
 
 fn has_stem(name: &str, stem: &str) -> bool {
-    let capital = stem[..1].to_uppercase() + &stem[1..];
+    let capital: String = stem.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
     let prefixes = [format!("{stem}_"), format!("{}_", stem.to_uppercase()), capital];
     prefixes.iter().any(|prefix| name.starts_with(prefix))
 }
@@ -115,8 +121,10 @@ fn the_examples_in_the_headers_compile() {
         assert_eq!(examples.len(), 1, "{name}");
         let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);
         compile(&whole).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let misspelt =
-            whole.replace("let radiance", "let radiance = nobody; let x").replace("= ltc_next(", "= ltc_walk(");
+        let misspelt = whole
+            .replace("let radiance", "let radiance = nobody; let x")
+            .replace("= ltc_next(", "= ltc_walk(")
+            .replace("= ltc_sample_point(", "= ltc_sample_spot(");
         assert!(compile(&misspelt).is_err(), "{name}");
     }
 }

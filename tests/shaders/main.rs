@@ -9,6 +9,8 @@ mod millions;
 mod named_cases;
 mod polygons;
 mod reserved;
+mod sampler;
+mod sampler_points;
 mod sampling;
 mod sheen;
 mod sweeps;

@@ -63,7 +63,7 @@ fn nodes(ring: usize, sector: usize) -> impl Iterator<Item = (DVec3, f64)> {
 }
 
 /// The probability of counts at least as far off as these (Pearson's chi-square, cells below five pooled).
-fn p_value(counts: &[u32], expected: &[f64]) -> f64 {
+pub fn p_value(counts: &[u32], expected: &[f64]) -> f64 {
     let total = f64::from(counts.iter().sum::<u32>());
     let (mut statistic, mut freedom, mut pool) = (0.0, -1.0, (0.0, 0.0));
     let mut add = |count: f64, expected: f64| {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
-use super::convex::{Convex, Outline, clip, cosine_share, edges};
+use crate::reference::convex::{Convex, Outline, clip, cosine_share, edges};
 use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 use crate::table::Ltc;
 

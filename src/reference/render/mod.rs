@@ -19,12 +19,11 @@
 //! | models | `models`: the scattering models of each material |
 //! | points | `surface`: materials at a point, in its frame; `chooser`: which light is sampled, and by which lobe |
 //! | parts | `world`: surfaces as rays meet them; `lights`: polygons as points see them; `film`: means of samples |
-//! | ground | `options`, `error`, `camera`, `uniforms`, `texels`, `convex`, `luminance`: nothing of the others |
+//! | ground | `options`, `error`, `camera`, `uniforms`, `texels`, `luminance`: nothing of the others |
 
 mod camera;
 mod chooser;
 mod context;
-mod convex;
 mod direct;
 mod error;
 mod film;
