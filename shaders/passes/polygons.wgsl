@@ -14,6 +14,9 @@ struct PolygonsLight {
     end_point: u32,
     // In Drawn::lights.
     light: u32,
+    // Its convex parts, as outlines of polygons_vertices.
+    first_part_vertex: u32,
+    end_part_vertex: u32,
 }
 
 @group(0) @binding(6) var<storage, read> polygons_lights: array<PolygonsLight>;

@@ -1,16 +1,73 @@
-// Points of polygon lights, drawn by what lobes scatter of them.
+// Points of polygon lights, drawn by what a lobe scatters of them.
 
-// PLACEHOLDER by area
-fn samples_point(receiver: Receiver, light: u32, uniforms: vec2f) -> vec4f {
-    let first = polygons_lights[light].first_vertex;
-    let a = polygons_vertices[first].xyz;
-    let b = polygons_vertices[first + 1u].xyz;
-    let c = polygons_vertices[first + 2u].xyz;
-    let d = polygons_vertices[first + 3u].xyz;
-    let x = a + uniforms.x * (b - a) + uniforms.y * (d - a);
-    let way = x - receiver.p_world;
-    let area = length(cross(b - a, d - a));
-    let distance = length(way);
-    let cosine = abs(dot(polygons_lights[light].normal, way)) / distance;
-    return vec4f(receiver.local_from_world * (way / distance), distance * distance / (cosine * area));
+// On the way round a light's convex parts.
+struct SamplesWalk {
+    outline: LtcOutline,
+    fan: LtcSampleFan,
+    // The vertex reached, and the part's first that is above the surface, where there has been one.
+    corner: vec3f,
+    first: vec3f,
+    is_begun: bool,
+}
+
+// A direction towards a point of the light, in the local frame: of the lobe's density over the light's form factor. 0 where there is none.
+fn samples_direction(receiver: Receiver, light: u32, m_inv: mat3x3f, form_factor: f32, numbers: vec2f) -> vec3f {
+    var walk: SamplesWalk;
+    walk.fan = ltc_sample_begin(numbers.x, form_factor);
+    let end = polygons_lights[light].end_part_vertex;
+    for (var index = polygons_lights[light].first_part_vertex; index < end; index++) {
+        let mark = polygons_vertices[index].w;
+        let p_local = polygons_local(receiver, index);
+        if mark > 0.0 {
+            walk = samples_begin(walk, p_local, !VARIANT_NORMAL_MAP);
+            walk.fan.apex = vec3f(0.0);
+        } else if VARIANT_NORMAL_MAP {
+            walk = samples_walk_above(walk, receiver, m_inv, p_local, mark < 0.0);
+        } else {
+            walk = samples_walk(walk, m_inv, p_local);
+        }
+    }
+    return ltc_sample_point(walk.fan, m_inv, numbers.y);
+}
+
+fn samples_begin(walk: SamplesWalk, vertex: vec3f, is_begun: bool) -> SamplesWalk {
+    var next = walk;
+    next.outline = ltc_begin(vertex);
+    next.corner = vertex;
+    next.first = vertex;
+    next.is_begun = is_begun;
+    return next;
+}
+
+fn samples_walk(walk: SamplesWalk, m_inv: mat3x3f, vertex: vec3f) -> SamplesWalk {
+    let outline = ltc_next(walk.outline, vertex);
+    var next = walk;
+    next.outline = outline;
+    next.fan = ltc_sample_edge(walk.fan, outline.p, outline.q, outline.normal, outline.sine, m_inv);
+    return next;
+}
+
+// As polygons_walk_above cuts outlines.
+fn samples_walk_above(walk: SamplesWalk, receiver: Receiver, m_inv: mat3x3f, vertex: vec3f, is_last: bool) -> SamplesWalk {
+    let start = dot(receiver.up, walk.corner);
+    let end = dot(receiver.up, vertex);
+    var next = walk;
+    if (start > 0.0) != (end > 0.0) {
+        next = samples_walk_on(next, m_inv, mix(walk.corner, vertex, start / (start - end)));
+    }
+    if end > 0.0 {
+        next = samples_walk_on(next, m_inv, vertex);
+    }
+    if is_last && next.is_begun {
+        next = samples_walk(next, m_inv, next.first);
+    }
+    next.corner = vertex;
+    return next;
+}
+
+fn samples_walk_on(walk: SamplesWalk, m_inv: mat3x3f, vertex: vec3f) -> SamplesWalk {
+    if walk.is_begun {
+        return samples_walk(walk, m_inv, vertex);
+    }
+    return samples_begin(walk, vertex, true);
 }

@@ -22,6 +22,9 @@ pub(super) struct GpuPolygon {
     first_point: u32,
     end_point: u32,
     light: u32,
+    first_part_vertex: u32,
+    end_part_vertex: u32,
+    padding: [u32; 2],
 }
 
 /// `LightsPunctual` of `lights.wgsl`.
@@ -111,10 +114,18 @@ impl GpuLights {
 /// Adds the vertices of the polygon's outlines.
 fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, points: Range<u32>) -> GpuPolygon {
     let first_vertex = vertices.len() as u32;
-    for contour in &polygon.contours {
-        vertices.extend(contour.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
-        vertices.extend(contour.first().map(|first| first.extend(-1.0)));
-    }
+    polygon.contours.iter().for_each(|contour| add_outline(contour, vertices));
+    let end_vertex = vertices.len() as u32;
+    let convex = polygon.convex_parts();
+    // A convex polygon is its own part.
+    let parts = if polygon.contours.len() == 1 && convex.len() == 1 {
+        first_vertex..end_vertex
+    } else {
+        for part in convex {
+            add_outline(&part.iter().map(|vertex| vertex.as_vec3()).collect::<Vec<_>>(), vertices);
+        }
+        end_vertex..vertices.len() as u32
+    };
     let (center, radius) = sphere(polygon);
     GpuPolygon {
         radiance: light.radiance,
@@ -123,11 +134,20 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, point
         first_vertex,
         center,
         radius,
-        end_vertex: vertices.len() as u32,
+        end_vertex,
         first_point: points.start,
         end_point: points.end,
         light: 0,
+        first_part_vertex: parts.start,
+        end_part_vertex: parts.end,
+        padding: [0; 2],
     }
+}
+
+/// An outline's vertices as shaders read them.
+fn add_outline(outline: &[Vec3], vertices: &mut Vec<Vec4>) {
+    vertices.extend(outline.iter().enumerate().map(|(i, p)| p.extend(if i == 0 { 1.0 } else { 0.0 })));
+    vertices.extend(outline.first().map(|first| first.extend(-1.0)));
 }
 
 /// A sphere around a polygon. Its centre lies in the polygon's plane through the first vertex, so that a point is on
@@ -219,7 +239,9 @@ mod tests {
             end_vertex,
             first_point,
             end_point,
-            light
+            light,
+            first_part_vertex,
+            end_part_vertex
         });
         let punctual = members!(GpuPunctual {
             intensity,
