@@ -203,7 +203,7 @@ mod tests {
         let turned = Quat::from_axis_angle(Vec3::new(1.0, -2.0, 0.5).normalize(), 1.1);
         let place = |&[x, y]: &[f32; 2]| turned * Vec3::new(x, y, 0.0) + Vec3::new(3.0, -1.0, 2.0);
         let contours = contours.iter().map(|contour| contour.iter().map(place).collect()).collect();
-        Polygon { contours, normal: turned * Vec3::Z }
+        Polygon { contours, normal: turned * Vec3::Z, pattern: None }
     }
 
     /// Area, first and second moments about the middle of what is near.
