@@ -29,7 +29,7 @@ const MERGED_MAX: usize = 1 << 18;
 /// The most cells along a side of a pattern.
 const PATTERN_SIDE: u32 = 512;
 /// The most cells of all patterns of a scene together.
-const PATTERNS_MAX: f64 = (1 << 23) as f64;
+const PATTERNS_MAX: f64 = (1 << 21) as f64;
 
 /// An instance that glows.
 struct Emitter {

@@ -5,8 +5,10 @@
 //! the mean of a whole number of them. Any other part is sampled in a rectangle along its longest edge, as its texture is
 //! magnified.
 
-use glam::{DMat2, DMat4, DVec2, DVec3, Vec3};
 use std::sync::Arc;
+
+use glam::{DMat2, DMat4, DVec2, DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::emission::{OnTriangle, Surface};
 use super::islands::Island;
@@ -24,6 +26,8 @@ const POINTS: u32 = 4;
 const POINTS_MAX: u32 = 8;
 /// The fewest cells along the longer side of what is sampled as magnified.
 const SAMPLED_MIN: f64 = 64.0;
+/// How far outside a triangle a point may lie by rounding, relative to the triangle, or in cells.
+const WITHIN: f64 = 1e-9;
 /// Values that differ by less, relative to the greatest, are the same.
 const EVEN: f64 = 1e-5;
 
@@ -39,7 +43,7 @@ impl Patterns {
     /// Of parts in the world, with at most `most` cells along a side; none where all of them are even and alike.
     pub fn new(surface: &Surface, world_from_mesh: DMat4, islands: &[Island], most: u32) -> Option<Self> {
         let shown: Vec<Shown> = islands
-            .iter()
+            .par_iter()
             .filter_map(|island| Shown::new(&Part::new(surface, world_from_mesh, island), most))
             .collect();
         let all = || shown.iter().flat_map(Shown::covered);
@@ -211,19 +215,28 @@ fn means(part: &Part, sheet: &Sheet, grid: &PatternGrid) -> Vec<Option<DVec3>> {
         let [a, b, c] = corners.map(|corner| f64::from(sheet.points) * grid.cells(corner));
         let shares = DMat2::from_cols(b - a, c - a).inverse();
         let (low, high) = bounds([a, b, c].into_iter());
-        let along = |axis: usize, count: u32| {
-            let end = (high[axis] + 0.5).min(f64::from(count * sheet.points));
-            (low[axis] - 0.5).max(0.0) as u32..end.max(0.0) as u32
-        };
-        for (row, column) in along(1, rows).flat_map(|row| along(0, columns).map(move |column| (row, column))) {
-            let at = shares * (DVec2::new(column.into(), row.into()) + 0.5 - a);
-            if at.x >= -1e-9 && at.y >= -1e-9 && at.x + at.y <= 1.0 + 1e-9 {
-                let cell = &mut sums[(row / sheet.points * columns + column / sheet.points) as usize];
-                *cell = (cell.0 + part.surface.shown(on, at, sheet.is_own), cell.1 + 1);
+        for row in centres(low.y, high.y, rows * sheet.points) {
+            let y = f64::from(row) + 0.5;
+            // Where the triangle's edges cross the row.
+            let crossing = |(p, q): (DVec2, DVec2)| p.x + (q.x - p.x) * ((y - p.y) / (q.y - p.y)).clamp(0.0, 1.0);
+            let edges = [(a, b), (b, c), (c, a)].into_iter().filter(|(p, q)| p.y.min(q.y) <= y && p.y.max(q.y) >= y);
+            let (left, right) = bounds(edges.map(crossing).map(DVec2::splat));
+            let (left, right) = if left.x <= right.x { (left.x, right.x) } else { (low.x, high.x) };
+            for column in centres(left, right, columns * sheet.points) {
+                let at = shares * (DVec2::new(column.into(), row.into()) + 0.5 - a);
+                if at.min_element() >= -WITHIN && at.x + at.y <= 1.0 + WITHIN {
+                    let cell = &mut sums[(row / sheet.points * columns + column / sheet.points) as usize];
+                    *cell = (cell.0 + part.surface.shown(on, at, sheet.is_own), cell.1 + 1);
+                }
             }
         }
     }
     sums.into_iter().map(|(sum, count)| (count > 0).then(|| sum / f64::from(count))).collect()
+}
+
+/// The squares of side 1, of so many, whose middles lie between two places, or about so.
+fn centres(low: f64, high: f64, count: u32) -> std::ops::Range<u32> {
+    (low - 0.5 - WITHIN).ceil().max(0.0) as u32..((high + 0.5 + WITHIN).min(count.into()).max(0.0) as u32)
 }
 
 /// Values for all cells: those at the outline in which no point lay have the mean of their neighbours, those off the
