@@ -6,9 +6,7 @@ use std::collections::HashMap;
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::islands::Island;
 use super::mipmap::halved;
-use super::patterns::Patterns;
 use super::{AlphaMode, Filter, Image, Material, Mesh, Sampler, Scene, TextureSlot, TextureUse, linear_from_srgb};
 
 /// The most texels of the emissive texture that an emitter may cover, all triangles together: where it covers more, a
@@ -114,15 +112,13 @@ impl<'a> Glows<'a> {
         self.glow(self.scene.instances[instance].mesh).seen.len() > 1
     }
 
-    /// What the flat parts of an instance show, with at most `most` cells along a side; none where they are even.
-    pub fn patterns(&mut self, instance: usize, islands: &[Island], most: u32) -> Option<Patterns> {
+    /// What says how much is seen where; none where all triangles of an instance are alike.
+    pub fn surface(&mut self, instance: usize) -> Option<&Surface<'a>> {
         if !self.varies(instance) {
             return None;
         }
-        let (scene, instance) = (self.scene, &self.scene.instances[instance]);
-        let mesh = instance.mesh;
-        let surface = self.surfaces.entry(mesh).or_insert_with(|| Surface::new(scene, &scene.meshes[mesh]));
-        Patterns::new(surface, instance.world_from_mesh.as_dmat4(), islands, most)
+        let (scene, mesh) = (self.scene, self.scene.instances[instance].mesh);
+        Some(self.surfaces.entry(mesh).or_insert_with(|| Surface::new(scene, &scene.meshes[mesh])))
     }
 
     fn glow(&mut self, mesh: usize) -> &Glow {

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 
-use super::emission::{Glows, Seen};
+use super::emission::{Glows, Seen, Surface};
 use super::islands::{Island, Topology};
 use super::notices::Notices;
 use super::patterns::Patterns;
@@ -63,7 +63,13 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
         let mesh = &scene.meshes[scene.instances[instance].mesh];
         let mut seen = glows.of(instance);
         let polygons = match flat.filter(|islands| islands.len() <= parts) {
-            Some(islands) => patterned(&mut glows, instance, islands, most, &mut seen),
+            Some(islands) => {
+                let place = scene.instances[instance].world_from_mesh;
+                match glows.surface(instance) {
+                    Some(surface) => patterned(surface, place, islands, most, &mut seen),
+                    None => islands.into_iter().map(|island| island.polygon).collect(),
+                }
+            }
             None => {
                 merged += mesh.indices.len() / 3;
                 if merged > MERGED_MAX {
@@ -97,8 +103,8 @@ fn pattern_side(emitters: &[Emitter], glows: &mut Glows) -> u32 {
 }
 
 /// The polygons of an emitter's flat parts, each with what it shows. Where that varies, the mean of it is seen.
-fn patterned(glows: &mut Glows, instance: usize, islands: Vec<Island>, most: u32, seen: &mut Seen) -> Vec<Polygon> {
-    let found = glows.patterns(instance, &islands, most);
+fn patterned(surface: &Surface, place: Mat4, islands: Vec<Island>, most: u32, seen: &mut Seen) -> Vec<Polygon> {
+    let found = Patterns::new(surface, place.as_dmat4(), &islands, most);
     let mut polygons: Vec<Polygon> = islands.into_iter().map(|island| island.polygon).collect();
     if let Some(Patterns { patterns, mean }) = found {
         seen.emission = mean;

@@ -124,7 +124,8 @@ impl<'a> Part<'a> {
         let (low, high) = bounds(self.outline().map(|vertex| grid.cells(vertex)));
         let (low, high) = ((low + ALIGNED).floor(), (high - ALIGNED).ceil());
         let count = (high - low).max(DVec2::ONE);
-        if !(count.max_element() <= ALONG_MAX) {
+        let fits = count.max_element() <= ALONG_MAX;
+        if !fits {
             return None;
         }
         let step = (count / f64::from(most)).ceil();
