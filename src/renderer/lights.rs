@@ -269,7 +269,7 @@ mod tests {
         let place = |[x, y]: [f32; 2]| Vec3::new(x + 3.0, 1.0, -y);
         let outer: Vec<Vec3> = square(2.0).into_iter().map(place).collect();
         let hole: Vec<Vec3> = square(1.0).into_iter().rev().map(place).collect();
-        let points = spread(&Polygon { contours: vec![outer.clone(), hole], normal: Vec3::Y });
+        let points = spread(&Polygon { contours: vec![outer.clone(), hole], normal: Vec3::Y, pattern: None });
         assert!((128..256).contains(&points.len()), "{}", points.len());
         let flat: Vec<[f32; 2]> = points.iter().map(|point| [point.x - 3.0, point.z]).collect();
         assert!(points.iter().all(|point| point.y == 1.0));
@@ -286,15 +286,16 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
         }
-        assert_eq!(spread(&Polygon { contours: vec![outer], normal: Vec3::Y }).len(), 128);
-        let narrow = Polygon { contours: vec![vec![Vec3::X, 2.0 * Vec3::X, 3.0 * Vec3::X]], normal: Vec3::Z };
+        assert_eq!(spread(&Polygon { contours: vec![outer], normal: Vec3::Y, pattern: None }).len(), 128);
+        let narrow =
+            Polygon { contours: vec![vec![Vec3::X, 2.0 * Vec3::X, 3.0 * Vec3::X]], normal: Vec3::Z, pattern: None };
         assert!(spread(&narrow).iter().all(|point| point.is_finite()));
     }
 
     #[test]
     fn a_sphere_holds_all_of_its_polygon() {
         let contours = vec![vec![Vec3::new(5.0, 1.0, 0.0), Vec3::new(9.0, 1.0, 0.001), Vec3::new(5.0, 2.0, -0.001)]];
-        let (center, radius) = sphere(&Polygon { contours: contours.clone(), normal: Vec3::Z });
+        let (center, radius) = sphere(&Polygon { contours: contours.clone(), normal: Vec3::Z, pattern: None });
         assert!(contours[0].iter().all(|vertex| vertex.distance(center) <= radius) && radius < 2.2);
         assert!(Vec3::Z.dot(center - contours[0][0]).abs() < 1e-7);
     }

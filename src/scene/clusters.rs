@@ -151,7 +151,7 @@ fn polygon(placed: &Placed, part: &[u32]) -> Option<Polygon> {
         (center + scale * (arm - normal * normal.dot(arm))).as_vec3()
     };
     let contours = contours.into_iter().map(|contour| contour.into_iter().map(place).collect()).collect();
-    Some(Polygon { contours, normal: normal.as_vec3() })
+    Some(Polygon { contours, normal: normal.as_vec3(), pattern: None })
 }
 
 /// What contours enclose in the plane of unit `normal`.

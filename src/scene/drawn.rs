@@ -81,6 +81,8 @@ impl<'a> Drawn<'a> {
         if offset != Vec3::ZERO {
             let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
             outlines.flatten().for_each(|vertex| *vertex += offset);
+            let patterns = light.polygons.iter_mut().filter_map(|polygon| polygon.pattern.as_mut());
+            patterns.for_each(|pattern| pattern.origin += offset);
             let instances = self.instances.to_mut();
             light.emitters().for_each(|emitter| instances[emitter].world_from_mesh.w_axis += offset.extend(0.0));
         }

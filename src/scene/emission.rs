@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::mipmap::halved;
-use super::{AlphaMode, Image, Material, Mesh, Sampler, Scene, TextureSlot, TextureUse, linear_from_srgb};
+use super::{AlphaMode, Filter, Image, Material, Mesh, Sampler, Scene, TextureSlot, TextureUse, linear_from_srgb};
 
 /// The most texels of the emissive texture that an emitter may cover, all triangles together: where it covers more, a
 /// smaller mipmap is looked up.
@@ -61,6 +61,8 @@ pub(super) struct Glows<'a> {
     scene: &'a Scene,
     /// By mesh.
     known: HashMap<usize, Glow>,
+    /// Those meshes of which patterns were made.
+    surfaces: HashMap<usize, Surface<'a>>,
 }
 
 /// What a mesh emits.
@@ -73,7 +75,7 @@ struct Glow {
 
 impl<'a> Glows<'a> {
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, known: HashMap::new() }
+        Self { scene, known: HashMap::new(), surfaces: HashMap::new() }
     }
 
     /// Whether any part of an instance emits.
@@ -105,6 +107,20 @@ impl<'a> Glows<'a> {
         if whole > 0.0 && sum.emission.is_finite() { sum.over(whole) } else { Seen::NOTHING }
     }
 
+    /// Whether triangles of an instance are each known by more than what all are like.
+    pub fn varies(&mut self, instance: usize) -> bool {
+        self.glow(self.scene.instances[instance].mesh).seen.len() > 1
+    }
+
+    /// What says how much is seen where; none where all triangles of an instance are alike.
+    pub fn surface(&mut self, instance: usize) -> Option<&Surface<'a>> {
+        if !self.varies(instance) {
+            return None;
+        }
+        let (scene, mesh) = (self.scene, self.scene.instances[instance].mesh);
+        Some(self.surfaces.entry(mesh).or_insert_with(|| Surface::new(scene, &scene.meshes[mesh])))
+    }
+
     fn glow(&mut self, mesh: usize) -> &Glow {
         self.known.entry(mesh).or_insert_with(|| {
             let mesh = &self.scene.meshes[mesh];
@@ -117,11 +133,18 @@ impl<'a> Glows<'a> {
 }
 
 /// A mesh with what says how much of its glow is seen where.
-struct Surface<'a> {
+pub(super) struct Surface<'a> {
     mesh: &'a Mesh,
     material: &'a Material,
     emission: Option<Layer<'a, Linear>>,
     opacity: Option<Layer<'a, &'a Image>>,
+}
+
+/// A triangle in the coordinates of the textures.
+pub(super) struct OnTriangle {
+    corners: [u32; 3],
+    emission: Option<[DVec2; 3]>,
+    opacity: Option<[DVec2; 3]>,
 }
 
 /// A texture as it lies on a mesh.
@@ -144,7 +167,7 @@ impl<'a> Surface<'a> {
 
     /// By triangle; one for all of them where all are seen alike.
     fn seen(mut self) -> Vec<Seen> {
-        let varies = !self.mesh.colors.is_empty() && self.material.alpha_mode != AlphaMode::Opaque;
+        let varies = self.varies();
         if self.emission.is_none() && self.opacity.is_none() && !varies {
             return vec![Seen::new(DVec3::ONE, self.opacity(1.0, &[0; 3], DVec3::X))];
         }
@@ -172,23 +195,76 @@ impl<'a> Surface<'a> {
 
     /// The mean over a triangle, from so many points.
     fn mean(&self, triangle: &[u32; 3], points: u32) -> Seen {
-        let emission = self.emission.as_ref().map(|layer| (layer, layer.corners(triangle)));
-        let opacity = self.opacity.as_ref().map(|layer| (layer, layer.corners(triangle)));
+        let on = self.on(triangle);
         let sum = (0..points).fold(Seen::NOTHING, |sum, point| {
             let at = if points == 1 { DVec2::splat(1.0 / 3.0) } else { spread(point) };
-            let uv = |[a, b, c]: [DVec2; 3]| a + at.x * (b - a) + at.y * (c - a);
-            let emission = emission.as_ref().map_or(DVec3::ONE, |(layer, corners)| {
-                let Linear { size, texels } = &layer.texels;
-                layer.sampler.magnified(*size, uv(*corners), |at| texels[at].as_dvec3())
-            });
-            let alpha = opacity.as_ref().map_or(1.0, |(layer, corners)| {
-                let Image { width, height, texels, .. } = layer.texels;
-                layer.sampler.magnified([*width, *height], uv(*corners), |at| f64::from(texels[at][3]) / 255.0)
-            });
-            let weights = DVec3::new(1.0 - at.x - at.y, at.x, at.y);
-            sum.plus(Seen::new(emission, self.opacity(alpha, triangle, weights)), 1.0)
+            let (texel, opacity) = self.at(&on, at, false);
+            sum.plus(Seen::new(texel, opacity), 1.0)
         });
         sum.over(points.into())
+    }
+
+    fn on(&self, triangle: &[u32; 3]) -> OnTriangle {
+        let emission = self.emission.as_ref().map(|layer| layer.corners(triangle));
+        let opacity = self.opacity.as_ref().map(|layer| layer.corners(triangle));
+        OnTriangle { corners: *triangle, emission, opacity }
+    }
+
+    /// The emissive texture and the opacity at a place in a triangle, given by its shares of the edges from the first
+    /// corner; of single texels where `is_single`.
+    fn at(&self, on: &OnTriangle, at: DVec2, is_single: bool) -> (DVec3, f64) {
+        let uv = |[a, b, c]: [DVec2; 3]| a + at.x * (b - a) + at.y * (c - a);
+        let sampler = |own: Sampler| if is_single { Sampler { magnify: Filter::Nearest, ..own } } else { own };
+        let emission = self.emission.as_ref().zip(on.emission).map_or(DVec3::ONE, |(layer, corners)| {
+            let Linear { size, texels } = &layer.texels;
+            sampler(layer.sampler).magnified(*size, uv(corners), |at| texels[at].as_dvec3())
+        });
+        let alpha = self.opacity.as_ref().zip(on.opacity).map_or(1.0, |(layer, corners)| {
+            let Image { width, height, texels, .. } = layer.texels;
+            let alpha = |at: usize| f64::from(texels[at][3]) / 255.0;
+            sampler(layer.sampler).magnified([*width, *height], uv(corners), alpha)
+        });
+        (emission, self.opacity(alpha, &on.corners, DVec3::new(1.0 - at.x - at.y, at.x, at.y)))
+    }
+
+    /// The share of the emission that is seen at a place in a triangle, as [`Self::at`] has it.
+    pub fn shown(&self, on: &OnTriangle, at: DVec2, is_single: bool) -> DVec3 {
+        let (texel, opacity) = self.at(on, at, is_single);
+        Seen::new(texel, opacity).emission
+    }
+
+    /// A triangle in the mesh, and in the textures.
+    pub fn triangle(&self, index: usize) -> ([DVec3; 3], OnTriangle) {
+        let corners = self.mesh.indices.as_chunks::<3>().0[index];
+        (corners.map(|corner| self.mesh.positions[corner as usize].as_dvec3()), self.on(&corners))
+    }
+
+    /// Of the texture whose texels count, the emissive one where there is one: its size.
+    pub fn leading_size(&self) -> Option<[u32; 2]> {
+        let emission = self.emission.as_ref().map(|layer| layer.texels.size);
+        emission.or(self.opacity.as_ref().map(|layer| [layer.texels.width, layer.texels.height]))
+    }
+
+    /// A triangle in its coordinates.
+    pub fn leading(&self, on: &OnTriangle) -> Option<[DVec2; 3]> {
+        on.emission.or(on.opacity)
+    }
+
+    /// The texels of it that a triangle covers.
+    pub fn leading_texels(&self, on: &OnTriangle) -> f64 {
+        let (Some([width, height]), Some([a, b, c])) = (self.leading_size(), self.leading(on)) else { return 0.0 };
+        let texels = 0.5 * (b - a).perp_dot(c - a).abs() * f64::from(width) * f64::from(height);
+        if texels.is_finite() { texels } else { f64::MAX.sqrt() }
+    }
+
+    /// Whether more than one thing varies.
+    pub fn has_both(&self) -> bool {
+        usize::from(self.emission.is_some()) + usize::from(self.opacity.is_some()) + usize::from(self.varies()) > 1
+    }
+
+    /// Whether the vertices' opacity counts.
+    fn varies(&self) -> bool {
+        !self.mesh.colors.is_empty() && self.material.alpha_mode != AlphaMode::Opaque
     }
 
     /// The share of what is behind a point that it hides, in \[0, 1\], where the texture has the alpha `texel`.

@@ -29,9 +29,18 @@ const EDGE_USES_MAX: usize = 8;
 pub(super) struct Topology {
     /// Triangles of welded vertices, without the thin ones.
     triangles: Vec<[u32; 3]>,
+    /// Which of the mesh's triangles they are.
+    sources: Vec<u32>,
     /// The neighbours of triangle `i` are `neighbours[starts[i]..starts[i + 1]]`.
     starts: Vec<usize>,
     neighbours: Vec<u32>,
+}
+
+/// A flat part of a mesh.
+pub(super) struct Island {
+    pub polygon: Polygon,
+    /// The mesh's triangles that make it up.
+    pub triangles: Vec<u32>,
 }
 
 /// A triangle's place in the world.
@@ -52,16 +61,17 @@ impl Topology {
             (b - a).cross(c - a).length() > tolerance * longest
         };
         let mut known = HashSet::new();
-        let is_new = |triangle: &[u32; 3]| known.insert(from_least(*triangle));
-        let triangles: Vec<[u32; 3]> = triangles.filter(is_wide).filter(is_new).collect();
+        let mut is_new = |triangle: &[u32; 3]| known.insert(from_least(*triangle));
+        let kept = (0..).zip(triangles).filter(|(_, triangle)| is_wide(triangle) && is_new(triangle));
+        let (sources, triangles): (Vec<u32>, Vec<[u32; 3]>) = kept.unzip();
         let (starts, neighbours) = adjacency(&triangles);
-        Self { triangles, starts, neighbours }
+        Self { triangles, sources, starts, neighbours }
     }
 
     /// The islands of the mesh as `instance` places it, counter-clockwise seen from the front; `None` where there are
     /// more than `limit`.
-    pub fn polygons(&self, mesh: &Mesh, instance: &Instance, limit: usize) -> Option<Vec<Polygon>> {
-        self.placed(mesh, instance).polygons(limit)
+    pub fn islands(&self, mesh: &Mesh, instance: &Instance, limit: usize) -> Option<Vec<Island>> {
+        self.placed(mesh, instance).islands(limit)
     }
 
     /// The mesh as `instance` places it.
@@ -186,14 +196,19 @@ pub(super) struct Placed<'a> {
 }
 
 impl Placed<'_> {
-    fn polygons(&self, limit: usize) -> Option<Vec<Polygon>> {
+    fn islands(&self, limit: usize) -> Option<Vec<Island>> {
         let mut taken = vec![false; self.triangles.len()];
         let mut islands = Vec::new();
         for seed in 0..self.triangles.len() as u32 {
             let patch = self.grow(seed, &mut taken, |from, to| self.cosine(from, to) > FACING_COSINE);
             self.part(patch, &mut islands, limit)?;
         }
-        Some(islands.iter().filter_map(|island| self.polygon(island)).collect())
+        let found = |island: Vec<u32>| {
+            let polygon = self.polygon(&island)?;
+            let triangles = island.into_iter().map(|triangle| self.topology.sources[triangle as usize]).collect();
+            Some(Island { polygon, triangles })
+        };
+        Some(islands.into_iter().filter_map(found).collect())
     }
 
     /// Splits connected triangles into islands: where they do not all lie in one plane, the smooth parts between sharp
@@ -309,7 +324,7 @@ impl Placed<'_> {
         let triangles = island.iter().map(|&triangle| self.triangles[triangle as usize]);
         let normal = self.normal(island);
         let contours = outline(triangles, &self.positions, normal);
-        (!contours.is_empty()).then(|| Polygon { contours, normal: normal.as_vec3() })
+        (!contours.is_empty()).then(|| Polygon { contours, normal: normal.as_vec3(), pattern: None })
     }
 }
 

@@ -1,5 +1,7 @@
 use glam::Vec3;
 
+use super::Pattern;
+
 /// The share of a thing's seen area from which on, if it glows, the thing is a lamp.
 const LAMP_SHARE: f32 = 0.5;
 
@@ -77,6 +79,8 @@ pub struct Polygon {
     pub contours: Vec<Vec<Vec3>>,
     /// Unit normal, towards the emitting side.
     pub normal: Vec3,
+    /// How the light varies over it; none where it is even.
+    pub pattern: Option<Pattern>,
 }
 
 /// A light without extent (KHR_lights_punctual).

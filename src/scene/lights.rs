@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 
-use super::emission::{Glows, Seen};
-use super::islands::Topology;
+use super::emission::{Glows, Seen, Surface};
+use super::islands::{Island, Topology};
 use super::notices::Notices;
+use super::patterns::Patterns;
 use super::{Light, Mesh, Polygon, Scene, clusters, overlaps};
 
 /// The most flat parts of an emitter that light each for itself; those of one that has more are merged.
@@ -25,19 +26,24 @@ const TRIANGLES_MAX: usize = 1 << 23;
 /// The most triangles of all emitters together whose flat parts are merged.
 const MERGED_MAX: usize = 1 << 18;
 
+/// The most cells along a side of a pattern.
+const PATTERN_SIDE: u32 = 512;
+/// The most cells of all patterns of a scene together.
+const PATTERNS_MAX: f64 = (1 << 21) as f64;
+
 /// An instance that glows.
 struct Emitter {
     /// Index into `Scene::instances`.
     instance: usize,
     /// Its flat parts, where they are no more than [`PARTS_MAX`].
-    flat: Option<Vec<Polygon>>,
+    flat: Option<Vec<Island>>,
 }
 
 impl Emitter {
     /// About how many corners its parts have where they are to be no more than `parts`.
     fn corners(&self, parts: usize) -> usize {
         match &self.flat {
-            Some(polygons) if polygons.len() <= parts => corners(polygons),
+            Some(islands) if islands.len() <= parts => corners(islands.iter().map(|island| &island.polygon)),
             _ => PART_CORNERS * parts.min(MERGED_PARTS),
         }
     }
@@ -51,11 +57,19 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
     let halves = std::iter::successors(Some(PARTS_MAX), |parts| Some(parts / 2));
     let fits = |&parts: &usize| emitters.iter().map(|emitter| emitter.corners(parts)).sum::<usize>() <= CORNERS_MAX;
     let parts = halves.take_while(|&parts| parts >= PARTS_MIN).find(fits).unwrap_or(PARTS_MIN);
+    let most = pattern_side(&emitters, &mut glows);
     let (mut lights, mut all, mut merged) = (Vec::new(), 0, 0);
     for Emitter { instance, flat } in emitters {
         let mesh = &scene.meshes[scene.instances[instance].mesh];
-        let polygons = match flat.filter(|polygons| polygons.len() <= parts) {
-            Some(polygons) => polygons,
+        let mut seen = glows.of(instance);
+        let polygons = match flat.filter(|islands| islands.len() <= parts) {
+            Some(islands) => {
+                let place = scene.instances[instance].world_from_mesh;
+                match glows.surface(instance) {
+                    Some(surface) => patterned(surface, place, islands, most, &mut seen),
+                    None => islands.into_iter().map(|island| island.polygon).collect(),
+                }
+            }
             None => {
                 merged += mesh.indices.len() / 3;
                 if merged > MERGED_MAX {
@@ -74,11 +88,29 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
             all -= corners(&polygons);
             notices.add("emitters past 8192 corners in all glow but light nothing", || name(scene, instance));
         } else {
-            lights.extend(light(scene, instance, polygons, glows.of(instance)));
+            lights.extend(light(scene, instance, polygons, seen));
         }
     }
     overlaps::separate(&mut lights);
     scene.lights.extend(lights);
+}
+
+/// The most cells along a side of a pattern.
+fn pattern_side(emitters: &[Emitter], glows: &mut Glows) -> u32 {
+    let varying = emitters.iter().filter(|emitter| glows.varies(emitter.instance));
+    let count: usize = varying.filter_map(|emitter| emitter.flat.as_ref()).map(Vec::len).sum();
+    PATTERN_SIDE.min((PATTERNS_MAX / count.max(1) as f64).sqrt() as u32)
+}
+
+/// The polygons of an emitter's flat parts, each with what it shows. Where that varies, the mean of it is seen.
+fn patterned(surface: &Surface, place: Mat4, islands: Vec<Island>, most: u32, seen: &mut Seen) -> Vec<Polygon> {
+    let found = Patterns::new(surface, place.as_dmat4(), &islands, most);
+    let mut polygons: Vec<Polygon> = islands.into_iter().map(|island| island.polygon).collect();
+    if let Some(Patterns { patterns, mean }) = found {
+        seen.emission = mean;
+        polygons.iter_mut().zip(patterns).for_each(|(polygon, pattern)| polygon.pattern = pattern);
+    }
+    polygons
 }
 
 /// What a user calls an instance.
@@ -87,8 +119,8 @@ fn name(scene: &Scene, instance: usize) -> String {
     if instance.name.is_empty() { scene.meshes[instance.mesh].name.clone() } else { instance.name.clone() }
 }
 
-fn corners(polygons: &[Polygon]) -> usize {
-    polygons.iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum()
+fn corners<'a>(polygons: impl IntoIterator<Item = &'a Polygon>) -> usize {
+    polygons.into_iter().flat_map(|polygon| &polygon.contours).map(Vec::len).sum()
 }
 
 /// The instances that glow, with their flat parts, and how the meshes of all of them are connected.
@@ -109,7 +141,7 @@ fn emitters(
             return None;
         }
         let topology = topologies.entry(instance.mesh).or_insert_with(|| Topology::new(mesh));
-        let flat = topology.polygons(mesh, instance, PARTS_MAX);
+        let flat = topology.islands(mesh, instance, PARTS_MAX);
         Some(Emitter { instance: index, flat })
     };
     bright.into_iter().filter_map(&mut emitter).collect()

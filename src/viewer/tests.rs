@@ -128,7 +128,7 @@ fn scene(size: f32) -> Scene {
         name: "key".into(),
         radiance: Vec3::new(4.0, 2.0, 1.0),
         two_sided: false,
-        polygons: vec![Polygon { contours: vec![corners.clone()], normal: Vec3::Z }],
+        polygons: vec![Polygon { contours: vec![corners.clone()], normal: Vec3::Z, pattern: None }],
         instance: 1,
         ..Light::default()
     };

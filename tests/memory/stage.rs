@@ -118,7 +118,7 @@ fn light(instance: usize, world_from_mesh: Mat4) -> Light {
         name: format!("lamp {instance}"),
         radiance: Vec3::ONE,
         two_sided: false,
-        polygons: vec![Polygon { contours: vec![contour], normal: Vec3::NEG_Z }],
+        polygons: vec![Polygon { contours: vec![contour], normal: Vec3::NEG_Z, pattern: None }],
         instance,
         ..Light::default()
     }

@@ -23,6 +23,8 @@ mod slab;
 mod slab_table;
 mod statistics;
 mod table;
+#[cfg(feature = "scenes")]
+mod textured_lights;
 mod transport;
 mod walk;
 

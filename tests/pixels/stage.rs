@@ -187,7 +187,7 @@ fn light((index, thing): (usize, &Thing)) -> Light {
         name: format!("thing {index}"),
         radiance: thing.material.emission,
         two_sided: thing.material.double_sided,
-        polygons: vec![Polygon { contours, normal }],
+        polygons: vec![Polygon { contours, normal, pattern: None }],
         instance: index,
         ..Light::default()
     }

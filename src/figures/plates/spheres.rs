@@ -56,7 +56,7 @@ fn scene(material: Material, degrees: f32) -> Scene {
         name: "window".to_owned(),
         radiance: emission,
         two_sided: false,
-        polygons: vec![Polygon { contours: vec![corners], normal: back }],
+        polygons: vec![Polygon { contours: vec![corners], normal: back, pattern: None }],
         instance: 1,
         ..Light::default()
     };

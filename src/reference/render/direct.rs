@@ -96,7 +96,15 @@ impl<'a> DirectLight<'a> {
         if wo.z <= 0.0 || surface.up.dot(wo) <= 0.0 || irradiance == DVec3::ZERO {
             return None;
         }
-        let lit = Lit { wo, radiance: irradiance, distance, instance: usize::MAX, part: usize::MAX };
+        let lit = Lit {
+            wo,
+            radiance: irradiance,
+            mean: irradiance,
+            by_texels: None,
+            distance,
+            instance: usize::MAX,
+            part: usize::MAX,
+        };
         Some((wo, irradiance * self.visible(&lit, rays)))
     }
 }

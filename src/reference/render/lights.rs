@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
+use super::patterned::{SeenTexels, Texels};
 use crate::reference::convex::{Convex, Outline, clip, cosine_share, edges};
 use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 use crate::table::Ltc;
@@ -17,7 +18,9 @@ const NEAREST: f64 = 1e-6;
 pub(super) struct Part {
     vertices: Vec<DVec3>,
     normal: DVec3,
+    /// The light's, of which its texels are factors.
     radiance: DVec3,
+    texels: Option<Texels>,
     two_sided: bool,
     /// Its emitter, in `Scene::instances`.
     instance: usize,
@@ -37,6 +40,7 @@ pub(super) struct Seen<'a> {
     part: &'a Part,
     index: usize,
     outline: Outline,
+    texels: Option<SeenTexels<'a>>,
 }
 
 /// A direction that is lit.
@@ -45,6 +49,10 @@ pub(super) struct Lit {
     /// Unit, in the point's frame.
     pub wo: DVec3,
     pub radiance: DVec3,
+    /// That of the whole light, of which the radiance is what its texel makes.
+    pub mean: DVec3,
+    /// How many samples of texels are expected per steradian; none where the light has no pattern.
+    pub by_texels: Option<f64>,
     pub distance: f64,
     /// Its emitter, in `Scene::instances`.
     pub instance: usize,
@@ -79,8 +87,12 @@ impl<'a> Lights<'a> {
             }
             (outline.len() >= 3).then_some(outline)
         };
-        let parts = self.parts.iter().enumerate();
-        parts.filter_map(|(index, part)| seen(part).map(|outline| Seen { part, index, outline })).collect()
+        let place = move |point: DVec3| local_from_world * (point - p_world);
+        let parts = self.parts.iter().enumerate().filter_map(|(index, part)| {
+            let texels = || part.texels.as_ref().map(|texels| texels.seen(place));
+            seen(part).map(|outline| Seen { part, index, outline, texels: texels() })
+        });
+        parts.collect()
     }
 }
 
@@ -90,8 +102,13 @@ impl Seen<'_> {
         self.index
     }
 
+    /// The light's, whatever its pattern.
     pub fn radiance(&self) -> DVec3 {
         self.part.radiance
+    }
+
+    pub fn is_patterned(&self) -> bool {
+        self.texels.is_some()
     }
 
     /// The share of a transformed cosine that falls on it.
@@ -111,12 +128,24 @@ impl Seen<'_> {
         Some(self.lit(wo)).filter(|_| wo.z > 0.0)
     }
 
+    /// A direction in which a texel lies, by the light that texels send; none where it is not seen there.
+    pub fn sample_texels(&self, choice: f64, uniforms: [f64; 2]) -> Option<Lit> {
+        let point = self.texels.as_ref()?.sample(choice, uniforms)?;
+        self.along(point.try_normalize()?).filter(|lit| lit.wo.z > 0.0)
+    }
+
     fn lit(&self, wo: DVec3) -> Lit {
         // The outline is cut, but still in the part's plane: all its corners together span that best.
         let normal: DVec3 = edges(&self.outline).map(|(p, q)| (p - self.outline[0]).cross(q - self.outline[0])).sum();
         let distance = normal.dot(self.outline[0]) / normal.dot(wo);
         let distance = if distance.is_finite() { distance.abs() } else { self.outline[0].length() };
-        Lit { wo, radiance: self.part.radiance, distance, instance: self.part.instance, part: self.index }
+        let mean = self.part.radiance;
+        let (radiance, by_texels) = self.texels.as_ref().map_or((mean, None), |texels| {
+            let (factor, by_area) = texels.at(distance * wo);
+            let across = normal.normalize_or_zero().dot(wo).abs();
+            (mean * factor, Some(by_area * distance * distance / across.max(f64::MIN_POSITIVE)))
+        });
+        Lit { wo, radiance, mean, by_texels, distance, instance: self.part.instance, part: self.index }
     }
 
     /// Where a direction meets it, if it does.
@@ -133,6 +162,7 @@ fn parts(light: &Light, polygon: &Polygon) -> impl Iterator<Item = Part> {
     polygon.convex_parts().into_iter().map(|vertices| Part {
         center: middle(&vertices),
         radius: vertices.iter().map(|vertex| vertex.distance(middle(&vertices))).fold(0.0, f64::max),
+        texels: polygon.pattern.as_ref().map(|pattern| Texels::new(pattern, light.radiance.as_dvec3(), &vertices)),
         vertices,
         normal: polygon.normal.as_dvec3(),
         radiance: light.radiance.as_dvec3(),

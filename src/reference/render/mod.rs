@@ -19,6 +19,7 @@
 //! | models | `models`: the scattering models of each material |
 //! | points | `surface`: materials at a point, in its frame; `chooser`: which light is sampled, and by which lobe |
 //! | parts | `world`: surfaces as rays meet them; `lights`: polygons as points see them; `film`: means of samples |
+//! | patterns | `patterned`: lights that show a pattern, and its texels |
 //! | ground | `options`, `error`, `camera`, `uniforms`, `texels`, `luminance`: nothing of the others |
 
 mod camera;
@@ -33,6 +34,7 @@ mod luminance;
 mod models;
 mod options;
 mod path;
+mod patterned;
 mod scatter;
 mod stack;
 mod surface;

@@ -6,7 +6,7 @@ use glam::{Mat4, Vec3};
 /// Materials, lights and cameras whose names repeat, are empty, are numbers, or need care.
 fn scene() -> Scene {
     let names = ["velvet", "", "felt", "felt", "2", "a \"b\"\n= [c]"];
-    let polygon = Polygon { contours: vec![vec![Vec3::ZERO, Vec3::X, Vec3::Y]], normal: Vec3::Z };
+    let polygon = Polygon { contours: vec![vec![Vec3::ZERO, Vec3::X, Vec3::Y]], normal: Vec3::Z, pattern: None };
     let light = |name: &str| Light {
         name: name.to_owned(),
         radiance: Vec3::ONE,

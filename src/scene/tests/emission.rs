@@ -20,7 +20,7 @@ fn linear(code: u8) -> f64 {
 }
 
 /// A square of `cells` by `cells` squares that shows all of an image once.
-fn emitter(cells: u32, size: [u32; 2], texel: impl FnMut(usize) -> [u8; 4]) -> Scene {
+pub fn emitter(cells: u32, size: [u32; 2], texel: impl FnMut(usize) -> [u8; 4]) -> Scene {
     let mut scene = scene(grid(cells, |_, _| true, |_, _| 0.0), Mat4::IDENTITY);
     let mesh = &mut scene.meshes[0];
     mesh.tex_coords[0] = mesh.positions.iter().map(|position| position.truncate()).collect();
@@ -33,7 +33,7 @@ fn emitter(cells: u32, size: [u32; 2], texel: impl FnMut(usize) -> [u8; 4]) -> S
     scene
 }
 
-fn used(scene: &mut Scene) -> &mut TextureUse {
+pub fn used(scene: &mut Scene) -> &mut TextureUse {
     scene.materials[0].textures[TextureSlot::Emission as usize].as_mut().unwrap()
 }
 

@@ -17,7 +17,8 @@ const ALL: fn(u32, u32) -> bool = |_, _| true;
 
 fn polygons_at(mesh: &Mesh, world_from_mesh: Mat4) -> Vec<Polygon> {
     let instance = Instance { name: String::new(), mesh: 0, world_from_mesh };
-    Topology::new(mesh).polygons(mesh, &instance, 256).expect("too many islands")
+    let islands = Topology::new(mesh).islands(mesh, &instance, 256).expect("too many islands");
+    islands.into_iter().map(|island| island.polygon).collect()
 }
 
 fn polygons(mesh: &Mesh) -> Vec<Polygon> {
@@ -83,7 +84,7 @@ fn a_hole_is_a_contour_wound_the_other_way() {
     let mut areas: Vec<f64> = polygons[0]
         .contours
         .iter()
-        .map(|contour| area(&Polygon { contours: vec![contour.clone()], normal: polygons[0].normal }))
+        .map(|contour| area(&Polygon { contours: vec![contour.clone()], normal: polygons[0].normal, pattern: None }))
         .collect();
     areas.sort_by(f64::total_cmp);
     assert!((areas[0] + 0.25).abs() < 1e-7 && (areas[1] - 1.0).abs() < 1e-7, "{areas:?}");

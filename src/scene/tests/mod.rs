@@ -7,6 +7,7 @@ mod emission;
 mod islands;
 mod lighting;
 mod overlaps;
+mod patterns;
 pub mod shapes;
 mod tangents;
 mod textures;

@@ -13,7 +13,8 @@ const ALL: fn(u32, u32) -> bool = |_, _| true;
 /// The islands of a mesh; none where there are more than 256.
 fn polygons(mesh: &Mesh) -> Option<Vec<Polygon>> {
     let instance = Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
-    Topology::new(mesh).polygons(mesh, &instance, 256)
+    let islands = Topology::new(mesh).islands(mesh, &instance, 256)?;
+    Some(islands.into_iter().map(|island| island.polygon).collect())
 }
 
 fn corners(mesh: &Mesh) -> Vec<usize> {
