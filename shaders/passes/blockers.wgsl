@@ -6,8 +6,6 @@ struct Blockers {
     unit: f32,
     // The nodes at which the two trees begin: of what stays and of what moves with the lights. The second is BLOCKERS_NONE where there is only one.
     roots: vec2u,
-    // Triangles from this one on are in the second buffer.
-    split: u32,
     // Where the looks of what is cut out or blended begin in blockers_nodes, BLOCKERS_LOOK each.
     first_look: u32,
 }
@@ -20,44 +18,57 @@ struct BlockersTriangle {
     // Where blockers_nodes has its coordinates and opacities; BLOCKERS_NONE: it is opaque.
     opacity: u32,
     second_edge: vec3f,
-    padding: u32,
 }
 
 const BLOCKERS_NONE = 0xffffffffu;
 // Half the size of the larger side of what a tree holds, in its unit.
 const BLOCKERS_SPAN = 1048576.0;
-// Sizes in blockers_nodes.
+// Texels of a node, of a triangle, and of a look.
 const BLOCKERS_NODE = 5u;
+const BLOCKERS_TRIANGLE = 3u;
 const BLOCKERS_LOOK = 2u;
+// Texels in a row are two to this power.
+const BLOCKERS_ROW = 13u;
 
 const BLOCKERS_REPEAT = 0u;
 const BLOCKERS_MIRROR = 1u;
 
 @group(2) @binding(0) var<uniform> blockers_all: Blockers;
-// Nodes of trees, and what triangles that are cut out or blended let through.
-@group(2) @binding(1) var<storage, read> blockers_nodes: array<vec4u>;
-@group(2) @binding(2) var<storage, read> blockers_triangles: array<BlockersTriangle>;
-@group(2) @binding(3) var<storage, read> blockers_more_triangles: array<BlockersTriangle>;
+// Nodes of trees, and what triangles that are cut out or blended let through. Textures, of numbers in rows one after the other: they hold more than
+// buffers may, and software drivers read them faster.
+@group(2) @binding(1) var blockers_nodes: texture_2d<u32>;
+@group(2) @binding(2) var blockers_triangles: texture_2d<u32>;
 // The alphas of images, one after the other, row by row, and on in the next layer.
-@group(2) @binding(4) var blockers_alphas: texture_2d_array<f32>;
+@group(2) @binding(3) var blockers_alphas: texture_2d_array<f32>;
+
+fn blockers_place(index: u32) -> vec2u {
+    return vec2u(index & ((1u << BLOCKERS_ROW) - 1u), index >> BLOCKERS_ROW);
+}
+
+fn blockers_node(index: u32) -> vec4u {
+    return textureLoad(blockers_nodes, blockers_place(index), 0);
+}
 
 fn blockers_triangle(index: u32) -> BlockersTriangle {
-    if VARIANT_MORE_TRIANGLES && index >= blockers_all.split {
-        return blockers_more_triangles[index - blockers_all.split];
-    }
-    return blockers_triangles[index];
+    let first = BLOCKERS_TRIANGLE * index;
+    let corner = textureLoad(blockers_triangles, blockers_place(first), 0);
+    let first_edge = textureLoad(blockers_triangles, blockers_place(first + 1u), 0);
+    let second_edge = textureLoad(blockers_triangles, blockers_place(first + 2u), 0);
+    return BlockersTriangle(
+        bitcast<vec3f>(corner.xyz), corner.w, bitcast<vec3f>(first_edge.xyz), first_edge.w, bitcast<vec3f>(second_edge.xyz),
+    );
 }
 
 // The share of light that a triangle stops where a ray meets it, by the weights of its second and third corner: of a mask all or nothing.
 fn blockers_opacity(place: u32, weights: vec2f) -> f32 {
-    let first = bitcast<vec4f>(blockers_nodes[place]);
-    let second = blockers_nodes[place + 1u];
+    let first = bitcast<vec4f>(blockers_node(place));
+    let second = blockers_node(place + 1u);
     let shares = vec3f(1.0 - weights.x - weights.y, weights);
     let uv = shares.x * first.xy + shares.y * first.zw + shares.z * bitcast<vec2f>(second.xy);
     let alphas = vec3f(unpack2x16unorm(second.z), unpack2x16unorm(second.w).x);
     let look = blockers_all.first_look + BLOCKERS_LOOK * (second.w >> 16u);
-    let factors = bitcast<vec2f>(blockers_nodes[look + 1u].xy);
-    let opacity = factors.x * dot(shares, alphas) * blockers_texel(blockers_nodes[look], uv);
+    let factors = bitcast<vec2f>(blockers_node(look + 1u).xy);
+    let opacity = factors.x * dot(shares, alphas) * blockers_texel(blockers_node(look), uv);
     // What is blended has a cutoff below 0.
     return select(select(0.0, 1.0, opacity >= factors.y), opacity, factors.y < 0.0);
 }

@@ -50,8 +50,8 @@ fn rays_passing(p_world: vec3f, direction: vec3f, distance: f32, light: u32) -> 
             stack[height] = group;
             height++;
         }
-        let head = blockers_nodes[node];
-        let base = blockers_nodes[node + 1u];
+        let head = blockers_node(node);
+        let base = blockers_node(node + 1u);
         let hits = rays_children(node, head, base.zw, origin, inverse, far * RAYS_UNTIL, octant);
         group = vec2u(base.x, (hits & ~RAYS_CHILDREN) | (head.w >> 24u));
         var triangles = hits & RAYS_CHILDREN;
@@ -81,9 +81,9 @@ fn rays_children(node: u32, head: vec4u, children: vec2u, origin: vec3f, inverse
     let extent = bitcast<vec3f>(((vec3u(head.w) >> vec3u(0u, 8u, 16u)) & vec3u(0xffu)) << vec3u(23u));
     let scale = extent * inverse;
     let start = (bitcast<vec3f>(head.xyz) - origin) * inverse;
-    let x = blockers_nodes[node + 2u];
-    let y = blockers_nodes[node + 3u];
-    let z = blockers_nodes[node + 4u];
+    let x = blockers_node(node + 2u);
+    let y = blockers_node(node + 3u);
+    let z = blockers_node(node + 4u);
     // Minima of four and of four, then maxima.
     let near_x = select(x.zw, x.xy, inverse.x > 0.0);
     let near_y = select(y.zw, y.xy, inverse.y > 0.0);

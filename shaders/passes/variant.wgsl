@@ -23,9 +23,8 @@ override VARIANT_PUNCTUAL: bool = true;
 override VARIANT_SHARP: bool = true;
 // Lights that reach a point are picked, for rays towards them.
 override VARIANT_SHADOWED: bool = true;
-// What of the scene stands in the way of light: some of it lets light through; its triangles fill more than one buffer.
+// Some of what stands in the way of light lets light through.
 override VARIANT_OPACITIES: bool = true;
-override VARIANT_MORE_TRIANGLES: bool = true;
 // What is cut out covers some of a pixel's four samples; otherwise all of the one that there is or nothing.
 override VARIANT_DITHERED: bool = true;
 // Shading is filtered over the pixel; otherwise it is the value at the pixel's centre.

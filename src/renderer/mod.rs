@@ -188,8 +188,8 @@ impl Renderer {
         self.blended.prepare(gpu, &self.resident.draws, view);
         self.is_shadowed = self.has_shadows(settings);
         let things = (&self.resident, &self.blended);
-        if let Some((blockers, kinds)) = self.shadows.bound().filter(|_| self.is_shadowed) {
-            let stage = sample.stage(kinds);
+        if let Some((blockers, opacities)) = self.shadows.bound().filter(|_| self.is_shadowed) {
+            let stage = sample.stage(opacities);
             self.surfaces.prepare(gpu, &self.resident, &[Stage::Depth, stage]);
             let (targets, gain) = self.shadowed.begin(gpu, size, sample.index, showing.gain());
             let frame = (view, settings, gain, sample);

@@ -5,7 +5,6 @@ use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, TextureFormat, 
 use super::draws::{Attributes, Variant};
 use super::materials::Look;
 use super::prior_sheens::NODES;
-use super::shadows::BlockerKinds;
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
 
 /// What of the scene a pipeline draws.
@@ -19,7 +18,8 @@ pub(super) enum Stage {
     Shadowed {
         /// Over what a sample stands for.
         filtered: bool,
-        blockers: BlockerKinds,
+        /// Where some of what stands in the way of light lets light through.
+        opacities: bool,
     },
 }
 
@@ -81,12 +81,12 @@ impl Pipelines {
     }
 
     /// The values of the shader's `override` constants.
-    fn constants(&self, variant: &Variant, stage: Stage, samples: u32) -> [(&'static str, f64); 19] {
+    fn constants(&self, variant: &Variant, stage: Stage, samples: u32) -> [(&'static str, f64); 18] {
         let Variant { look, lights, .. } = *variant;
         let number = |on: bool| f64::from(u8::from(on));
-        let (shadowed, filtered, blockers) = match stage {
-            Stage::Shadowed { filtered, blockers } => (true, filtered, blockers),
-            Stage::Unshadowed | Stage::Depth => (stage == Stage::Depth, samples > 1, BlockerKinds::default()),
+        let (shadowed, filtered, opacities) = match stage {
+            Stage::Shadowed { filtered, opacities } => (true, filtered, opacities),
+            Stage::Unshadowed | Stage::Depth => (stage == Stage::Depth, samples > 1, false),
         };
         [
             ("VARIANT_SHEEN", number(look.sheen)),
@@ -101,8 +101,7 @@ impl Pipelines {
             ("VARIANT_POLYGONS", number(lights.polygons)),
             ("VARIANT_PUNCTUAL", number(lights.punctual)),
             ("VARIANT_SHADOWED", number(shadowed)),
-            ("VARIANT_OPACITIES", number(blockers.opacities)),
-            ("VARIANT_MORE_TRIANGLES", number(blockers.more)),
+            ("VARIANT_OPACITIES", number(opacities)),
             ("VARIANT_SHARP", number(look.sharp && samples > 1)),
             ("VARIANT_DITHERED", number(samples > 1)),
             ("VARIANT_FILTERED", number(filtered)),

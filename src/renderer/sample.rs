@@ -1,5 +1,4 @@
 use super::pipelines::Stage;
-use super::shadows::BlockerKinds;
 
 /// Which of each pixel's samples a frame with shadows draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +29,7 @@ impl Sample {
         if self.spread { (self.index as f32 + 1.0).sqrt().recip() } else { 1.0 }
     }
 
-    pub(super) fn stage(&self, blockers: BlockerKinds) -> Stage {
-        Stage::Shadowed { filtered: self.spread, blockers }
+    pub(super) fn stage(&self, opacities: bool) -> Stage {
+        Stage::Shadowed { filtered: self.spread, opacities }
     }
 }

@@ -5,16 +5,14 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4, Vec3};
 use wgpu::util::DeviceExt;
-use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device, Limits, Queue, ShaderStages, TextureView};
+use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Limits, Queue, ShaderStages, Texture, TextureView};
 
 use super::Gpu;
-use super::blockers::{Gathered, Kind, Opacities, Tree, emitting_triangles, most_nodes};
+use super::blockers::{Gathered, Kind, Opacities, Tree, Words, emitting_triangles, most_nodes};
 use super::tracked_buffer::TrackedBuffer;
 use crate::bvh::units;
-use crate::scene::Drawn;
+use crate::scene::{Drawn, Instance};
 
-/// Storage buffers of the fragment stage with shadows: those of materials and lights, and three of what stands in the way.
-const STORAGE_BUFFERS: u32 = 8;
 /// Longest side of a layer of alphas.
 const ALPHAS_SIDE: usize = 4096;
 
@@ -28,17 +26,8 @@ struct GpuBlockers {
     center: Vec3,
     unit: f32,
     roots: [u32; 2],
-    split: u32,
     first_look: u32,
-}
-
-/// What the shaders are made for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(super) struct BlockerKinds {
-    /// Some triangles let light through.
-    pub opacities: bool,
-    /// Triangles fill more than one buffer.
-    pub more: bool,
+    padding: u32,
 }
 
 /// What stands in the way of light in a scene as it is drawn, on its way to the device: first gathered, then built, which
@@ -102,12 +91,11 @@ pub(super) struct Shadows {
 
 struct ResidentTrees {
     blockers: TrackedBuffer,
-    nodes: Buffer,
-    /// The first of their buffers.
-    triangles: Buffer,
+    nodes: Texture,
+    triangles: Texture,
     bind_group: BindGroup,
     held: GpuBlockers,
-    kinds: BlockerKinds,
+    opacities: bool,
     /// Of what stays; none where nothing does.
     root: Option<u32>,
     /// Where the records of opacity begin in the nodes.
@@ -158,117 +146,93 @@ impl Shadows {
         }
     }
 
-    /// Where there are shadows: what is bound for them, and what shaders are to be made for.
-    pub fn bound(&self) -> Option<(&BindGroup, BlockerKinds)> {
+    /// Where there are shadows: what is bound for them, and whether some of it lets light through.
+    pub fn bound(&self) -> Option<(&BindGroup, bool)> {
         let resident = self.resident.as_ref().filter(|resident| resident.held.roots[0] != NONE);
-        resident.map(|resident| (&resident.bind_group, resident.kinds))
+        resident.map(|resident| (&resident.bind_group, resident.opacities))
     }
 }
 
 /// Why a device cannot hold what stands in the way of light in a scene.
 fn lack(limits: &Limits, drawn: &Drawn) -> Option<String> {
-    let without = "the picture is drawn without shadows";
-    let buffers = limits.max_storage_buffers_per_shader_stage;
-    if buffers < STORAGE_BUFFERS {
+    let side = limits.max_texture_dimension_2d as usize;
+    if side < ROW {
         return Some(format!(
-            "the adapter gives a shader {buffers} storage buffers of {STORAGE_BUFFERS} that shadows take: {without}; use \
-             another --adapter"
+            "the adapter's textures have {side} texels a side, of {ROW} that shadows take: {WITHOUT}; use another --adapter"
         ));
     }
-    let triangles = |instance: &crate::scene::Instance| drawn.scene.meshes[instance.mesh].indices.len() / 3;
+    let triangles = |instance: &Instance| drawn.scene.meshes[instance.mesh].indices.len() / 3;
     let all: usize = drawn.instances.iter().map(triangles).sum();
-    let most = most_triangles(limits);
+    let most = side * ROW / TRIANGLE;
     (all > most).then(|| {
-        format!("{all} triangles cast shadows, of at most {most} that the adapter holds: {without}; simplify the scene")
+        format!("{all} triangles cast shadows, of at most {most} that the adapter holds: {WITHOUT}; simplify the scene")
     })
 }
 
-/// In two buffers.
-fn most_triangles(limits: &Limits) -> usize {
-    let of_one = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / TRIANGLE as u64;
-    2 * usize::try_from(of_one).unwrap_or(usize::MAX / 2)
-}
-
-/// Bytes of a triangle.
-const TRIANGLE: usize = 48;
-/// Bytes of a node, and of `blockers_nodes`' elements.
-const NODE: usize = 80;
-const WORDS: usize = 16;
+const WITHOUT: &str = "the picture is drawn without shadows";
+/// `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
+const ROW: usize = 1 << 13;
+/// Texels of a node, of a triangle, and of what says how one lets light through.
+const NODE: usize = 5;
+const TRIANGLE: usize = 3;
+const OPACITY: usize = 2;
 
 impl ResidentTrees {
-    /// `emitting` triangles have room in the trees of emitters.
+    /// `emitting` triangles have room in the tree of emitters.
     fn new(
         gpu: &Gpu,
         layout: &BindGroupLayout,
         (mut others, emitters, emitting, (center, unit)): (Tree, Tree, usize, (DVec3, f64)),
         (opacities, placed): (&Opacities, Placed),
     ) -> Result<Self, String> {
-        let Gpu { device, queue, .. } = gpu;
-        // First the emitters' nodes, then the others', then opacities.
-        let root = most_nodes(emitting);
-        let first_record = 5 * (root + others.nodes.len());
-        let first_look = first_record + 2 * opacities.records.len();
-        let words = first_look + 2 * opacities.looks.len();
-        let limits = device.limits();
-        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        if (words * WORDS) as u64 > most {
-            return Err(format!(
-                "what casts shadows takes {} bytes on the adapter, which holds at most {most} in one piece: the picture is drawn \
-                 without shadows; simplify the scene",
-                words * WORDS
-            ));
+        let device = &gpu.device;
+        // First the emitters, in rows of their own; then the others; then opacities.
+        let root = (NODE * most_nodes(emitting)).next_multiple_of(NODE * ROW);
+        let first_triangle = (TRIANGLE * emitting).next_multiple_of(TRIANGLE * ROW);
+        let first_record = root + NODE * others.nodes.len();
+        let first_look = first_record + OPACITY * opacities.records.len();
+        let texels = [first_look + OPACITY * opacities.looks.len(), first_triangle + TRIANGLE * others.triangles.len()];
+        let most = device.limits().max_texture_dimension_2d as usize;
+        if texels.into_iter().any(|texels| rows(texels) > most) {
+            return Err(format!("what casts shadows is more than the adapter holds: {WITHOUT}; simplify the scene"));
         }
-        others.place(root, emitting, first_record);
-        let nodes = buffer(device, "blockers' nodes", words * WORDS);
-        let write = |buffer: &Buffer, at: usize, bytes: &[u8]| queue.write_buffer(buffer, at as u64, bytes);
-        write(&nodes, root * NODE, bytemuck::cast_slice(&others.nodes));
-        write(&nodes, first_record * WORDS, bytemuck::cast_slice(&opacities.records));
-        write(&nodes, first_look * WORDS, bytemuck::cast_slice(&opacities.looks));
-        // Emitters' triangles are the first.
-        let split = most as usize / TRIANGLE;
-        let all = emitting + others.triangles.len();
-        let triangles = [all.min(split), all.saturating_sub(split)]
-            .map(|triangles| buffer(device, "blockers' triangles", triangles * TRIANGLE));
-        let in_first = others.triangles.len().min(split.saturating_sub(emitting));
-        let (first, second) = others.triangles.split_at(in_first);
-        write(&triangles[0], emitting * TRIANGLE, bytemuck::cast_slice(first));
-        write(&triangles[1], 0, bytemuck::cast_slice(second));
-        let held = GpuBlockers {
-            center: center.as_vec3(),
-            unit: unit as f32,
-            roots: [NONE; 2],
-            split: split as u32,
-            first_look: first_look as u32,
-        };
+        others.place(root / NODE, first_triangle / TRIANGLE, first_record);
+        let [nodes, triangles] = texels.map(|texels| numbers(device, rows(texels)));
+        let mut words: Vec<Words> = bytemuck::cast_vec(others.nodes);
+        words.extend(opacities.records.as_flattened());
+        words.extend(opacities.looks.as_flattened());
+        write(&gpu.queue, &nodes, root / ROW, words);
+        write(&gpu.queue, &triangles, first_triangle / ROW, bytemuck::cast_vec(others.triangles));
+        let root = (root < first_record).then_some((root / NODE) as u32);
+        let (roots, first_look) = ([NONE; 2], first_look as u32);
+        let held = GpuBlockers { center: center.as_vec3(), unit: unit as f32, roots, first_look, padding: 0 };
         let blockers = TrackedBuffer::new(device, "blockers", bytemuck::bytes_of(&held), BufferUsages::UNIFORM);
         let alphas = alphas(gpu, &opacities.alphas);
+        let views = [&nodes, &triangles].map(|texture| texture.create_view(&Default::default()));
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("blockers"),
             layout,
             entries: &[
                 entry(0, blockers.binding()),
-                entry(1, nodes.as_entire_binding()),
-                entry(2, triangles[0].as_entire_binding()),
-                entry(3, triangles[1].as_entire_binding()),
-                entry(4, wgpu::BindingResource::TextureView(&alphas)),
+                entry(1, wgpu::BindingResource::TextureView(&views[0])),
+                entry(2, wgpu::BindingResource::TextureView(&views[1])),
+                entry(3, wgpu::BindingResource::TextureView(&alphas)),
             ],
         });
-        let kinds = BlockerKinds { opacities: !opacities.records.is_empty(), more: all > split };
-        let root = (!others.nodes.is_empty()).then_some(root as u32);
-        let [triangles, _] = triangles;
+        let opacities = !opacities.records.is_empty();
         let places = Placed::new();
         let mut resident =
-            Self { blockers, nodes, triangles, bind_group, held, kinds, root, first_record, placed: places };
-        resident.replace_emitters(queue, emitters, placed);
+            Self { blockers, nodes, triangles, bind_group, held, opacities, root, first_record, placed: places };
+        resident.replace_emitters(&gpu.queue, emitters, placed);
         Ok(resident)
     }
 
     fn replace_emitters(&mut self, queue: &Queue, mut emitters: Tree, placed: Placed) {
         emitters.place(0, 0, self.first_record);
-        queue.write_buffer(&self.nodes, 0, bytemuck::cast_slice(&emitters.nodes));
-        queue.write_buffer(&self.triangles, 0, bytemuck::cast_slice(&emitters.triangles));
         let moving = (!emitters.nodes.is_empty()).then_some(0);
+        write(queue, &self.nodes, 0, bytemuck::cast_vec(emitters.nodes));
+        write(queue, &self.triangles, 0, bytemuck::cast_vec(emitters.triangles));
         self.held.roots = match (self.root, moving) {
             (Some(root), moving) => [root, moving.unwrap_or(NONE)],
             (None, moving) => [moving.unwrap_or(NONE), NONE],
@@ -278,14 +242,42 @@ impl ResidentTrees {
     }
 }
 
-/// An empty buffer of so many bytes, or some where there are to be none.
-fn buffer(device: &Device, label: &str, bytes: usize) -> Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: bytes.max(TRIANGLE.next_multiple_of(WORDS)) as u64,
-        usage: BufferUsages::STORAGE | BufferUsages::COPY_DST,
-        mapped_at_creation: false,
+/// Rows of so many texels.
+fn rows(texels: usize) -> usize {
+    texels.div_ceil(ROW)
+}
+
+/// A texture of numbers in so many rows, or one.
+fn numbers(device: &Device, rows: usize) -> Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("blockers"),
+        size: wgpu::Extent3d { width: ROW as u32, height: rows.max(1) as u32, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
     })
+}
+
+/// Writes whole rows from one on; what is beyond the texels does not count.
+fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texels: Vec<Words>) {
+    let rows = rows(texels.len());
+    if rows == 0 {
+        return;
+    }
+    texels.resize(rows * ROW, [0; 4]);
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: first_row as u32, z: 0 }, ..texture.as_image_copy() },
+        bytemuck::cast_slice(&texels),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some((ROW * size_of::<Words>()) as u32),
+            rows_per_image: None,
+        },
+        wgpu::Extent3d { width: ROW as u32, height: rows as u32, depth_or_array_layers: 1 },
+    );
 }
 
 /// A texture of alphas, row by row and layer by layer.
@@ -321,15 +313,17 @@ fn alphas(gpu: &Gpu, alphas: &[u8]) -> TextureView {
 
 /// Group 2 of the surfaces' pass.
 pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
-    use wgpu::{BindingType, BufferBindingType};
-    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let storage = buffer(BufferBindingType::Storage { read_only: true });
-    let alphas = BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2Array,
-        multisampled: false,
+    use wgpu::{BindingType, TextureSampleType, TextureViewDimension};
+    let blockers = BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
     };
-    let types = [buffer(BufferBindingType::Uniform), storage, storage, storage, alphas];
+    let texture =
+        |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let numbers = texture(TextureSampleType::Uint, TextureViewDimension::D2);
+    let alphas = texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2Array);
+    let types = [blockers, numbers, numbers, alphas];
     let entry =
         |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None };
     let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..).zip(types).map(entry).collect();
@@ -344,7 +338,7 @@ mod tests {
 
     #[test]
     fn trees_stand_as_the_shader_reads_them() {
-        let members = members!(GpuBlockers { center, unit, roots, split, first_look });
+        let members = members!(GpuBlockers { center, unit, roots, first_look });
         assert_eq!(differences(SURFACES_WGSL, "Blockers", size_of::<GpuBlockers>(), members), [""; 0]);
     }
 }

@@ -67,7 +67,7 @@ impl SurfacesPass {
         let device = &gpu.device;
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("surfaces"),
-            source: wgpu::ShaderSource::Wgsl(match std::env::var("SURF") { Ok(p) => std::fs::read_to_string(p).unwrap().into(), Err(_) => SURFACES_WGSL.into() }) /*HACK*/,
+            source: wgpu::ShaderSource::Wgsl(SURFACES_WGSL.into()),
         });
         let frame = [0; size_of::<Frame>()];
         let frame = TrackedBuffer::new(device, "surfaces frame", &frame, BufferUsages::UNIFORM);
