@@ -6,6 +6,41 @@
 // Greatest ratio of what the points see of a light to its exact form factor.
 const POINTS_MOST = 2.0;
 
+// What a point stands for, in the prior sheen and in the diffuse lobe.
+struct PointsSeen {
+    sheen: f32,
+    diffuse: f32,
+}
+
+fn points_seen(receiver: Receiver, polygon: u32, index: u32) -> PointsSeen {
+    let point = points_on_polygons[index];
+    let way = point.xyz - receiver.p_world;
+    let inverse = inverseSqrt(max(dot(way, way), 1e-20));
+    let wo = receiver.local_from_world * (way * inverse);
+    var seen: PointsSeen;
+    if dot(receiver.up, wo) > 0.0 {
+        let solid_angle = point.w * abs(dot(polygons_lights[polygon].normal, way)) * inverse * inverse * inverse;
+        seen.sheen = solid_angle * prior_sheens_value(receiver.prior_sheen, wo);
+        seen.diffuse = solid_angle * max(wo.z, 0.0);
+    }
+    return seen;
+}
+
+// One of the points, with a probability in proportion to what it brings in the prior sheen (Chao 1982): the way to it in the world.
+fn points_picked(receiver: Receiver, polygon: u32, start: u32) -> vec3f {
+    var total = 0.0;
+    var way = vec3f(0.0);
+    let end = polygons_lights[polygon].end_point;
+    for (var index = polygons_lights[polygon].first_point; index < end; index++) {
+        let worth = points_seen(receiver, polygon, index).sheen;
+        total += worth;
+        if worth > 0.0 && randoms_one(randoms_of(start, index), receiver.sample) * total < worth {
+            way = points_on_polygons[index].xyz - receiver.p_world;
+        }
+    }
+    return way;
+}
+
 // The prior sheen's form factor of a polygon, over its albedo. Closer to the light than the points are to each other, the sum is too large or
 // too small: it is limited to POINTS_MOST times what the diffuse lobe's exact form factor allows.
 fn points_sheen(receiver: Receiver, polygon: u32, diffuse: f32) -> f32 {
@@ -13,15 +48,9 @@ fn points_sheen(receiver: Receiver, polygon: u32, diffuse: f32) -> f32 {
     var diffuse_of_points = 0.0;
     let end = select(0u, polygons_lights[polygon].end_point, diffuse > 0.0);
     for (var index = polygons_lights[polygon].first_point; index < end; index++) {
-        let point = points_on_polygons[index];
-        let way = point.xyz - receiver.p_world;
-        let inverse = inverseSqrt(max(dot(way, way), 1e-20));
-        let wo = receiver.local_from_world * (way * inverse);
-        if dot(receiver.up, wo) > 0.0 {
-            let solid_angle = point.w * abs(dot(polygons_lights[polygon].normal, way)) * inverse * inverse * inverse;
-            sheen += solid_angle * prior_sheens_value(receiver.prior_sheen, wo);
-            diffuse_of_points += solid_angle * max(wo.z, 0.0);
-        }
+        let seen = points_seen(receiver, polygon, index);
+        sheen += seen.sheen;
+        diffuse_of_points += seen.diffuse;
     }
     let most = POINTS_MOST * LTC_PI * diffuse;
     return sheen * most / max(diffuse_of_points, max(most, 1e-30)) / receiver.prior_sheen.albedo;

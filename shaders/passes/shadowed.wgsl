@@ -18,15 +18,15 @@ struct ShadowedPoint {
 }
 
 @fragment
-fn shadowed_fragment(in: SurfacesVarying, @builtin(front_facing) front_facing: bool) -> ShadowedTargets {
-    texels_footprint = surfaces_frame.footprint;
+fn shadowed_fragment(in: VerticesVarying, @builtin(front_facing) front_facing: bool) -> ShadowedTargets {
+    texels_footprint = frame_now.footprint;
     let surface = material_plain(in.material, in.emission, in.n_world);
     let point = ShadowedPoint(in.p_from_origin, in.n_world, in.n_center, in.height, in.material, in.position.xy);
     return shadowed_targets(surface, point, front_facing);
 }
 
 @fragment
-fn shadowed_fragment_textured(in: SurfacesTexturedVarying, @builtin(front_facing) front_facing: bool) -> ShadowedTargets {
+fn shadowed_fragment_textured(in: VerticesTexturedVarying, @builtin(front_facing) front_facing: bool) -> ShadowedTargets {
     let surface = shadowed_textured(in);
     let point = ShadowedPoint(in.p_from_origin, in.n_world, in.n_center, in.height, in.material, in.position.xy);
     return shadowed_targets(surface, point, front_facing);
@@ -34,28 +34,28 @@ fn shadowed_fragment_textured(in: SurfacesTexturedVarying, @builtin(front_facing
 
 // Depth alone, of what is cut out.
 @fragment
-fn shadowed_cutout(in: SurfacesVarying) {
+fn shadowed_cutout(in: VerticesVarying) {
     if material_plain(in.material, in.emission, in.n_world).samples == 0u {
         discard;
     }
 }
 
 @fragment
-fn shadowed_cutout_textured(in: SurfacesTexturedVarying) {
+fn shadowed_cutout_textured(in: VerticesTexturedVarying) {
     if shadowed_textured(in).samples == 0u {
         discard;
     }
 }
 
-fn shadowed_textured(in: SurfacesTexturedVarying) -> MaterialSurface {
-    texels_footprint = surfaces_frame.footprint;
+fn shadowed_textured(in: VerticesTexturedVarying) -> MaterialSurface {
+    texels_footprint = frame_now.footprint;
     return material_textured(
         in.material, in.emission, in.n_world, in.t_world, in.tex_coords, in.color, in.position.xy, in.seed,
     );
 }
 
 fn shadowed_targets(surface: MaterialSurface, at: ShadowedPoint, front_facing: bool) -> ShadowedTargets {
-    let p_world = surfaces_frame.origin + at.p_from_origin;
+    let p_world = frame_now.origin + at.p_from_origin;
     var seen = surfaces_seen(surface, p_world, at.n_world, at.n_center, front_facing, 1u);
     let flat_normal = cross(dpdx(at.p_from_origin), dpdy(at.p_from_origin));
     if VARIANT_MASK && surface.samples == 0u {
@@ -65,14 +65,14 @@ fn shadowed_targets(surface: MaterialSurface, at: ShadowedPoint, front_facing: b
     targets.blocked = vec4f(vec3f(0.0), seen.opacity);
     targets.guide = vec4f(at.p_from_origin, shadowed_packed(seen.point.smooth_normal, at.material));
     if VARIANT_UNLIT {
-        targets.radiance = surfaces_unlit(surfaces_frame.emission * surface.base_color, seen.opacity);
+        targets.radiance = surfaces_unlit(frame_now.emission * surface.base_color, seen.opacity);
         return targets;
     }
-    seen.point.seed = randoms_seed(at.pixel, surfaces_frame.seed);
-    seen.point.sample = surfaces_frame.sample;
+    seen.point.seed = randoms_seed(at.pixel, frame_now.seed);
+    seen.point.sample = frame_now.sample;
     let receiver = shading_receiver(surface, seen.point, seen.weights);
     let reflected = shading_reflected(receiver, surface.occlusion, seen.weights);
-    targets.radiance = surfaces_stored(surfaces_frame.emission * surface.emission + reflected, seen.opacity);
+    targets.radiance = surfaces_stored(frame_now.emission * surface.emission + reflected, seen.opacity);
     let origin = shadows_origin(seen.point, at.p_from_origin, at.height, at.n_center, flat_normal, seen.side);
     targets.blocked = surfaces_stored(shadows_blocked(receiver, origin), seen.opacity);
     return targets;

@@ -74,33 +74,42 @@ fn shadows_blocked(receiver: Receiver, origin: ShadowsOrigin) -> vec3f {
 }
 
 fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: Pick) -> ShadowsRay {
-    let numbers = randoms_three(randoms_of(receiver.seed, pick.light), receiver.sample);
+    let start = randoms_of(receiver.seed, pick.light);
+    let numbers = randoms_three(start, receiver.sample);
     let radiance = polygons_lights[pick.light].radiance;
+    let light = polygons_lights[pick.light].light;
     let whole = picks_per_form_factor(receiver, radiance, pick.base_weight);
     // The lobe by what it brings.
     let at = numbers.x * picks_worth(pick.worths);
+    let is_sheen = at >= pick.worths.diffuse + pick.worths.specular;
+    if VARIANT_PRIOR_SHEEN && is_sheen {
+        let way = points_picked(receiver, pick.light, start);
+        let blocked = pick.total / whole.sheen * radiance * receiver.colors.sheen;
+        return shadows_ray(receiver, origin, filters_normalize(way), length(way), light, blocked);
+    }
     var m_inv = LOBES_DIFFUSE;
     var form_factor = pick.worths.diffuse / whole.diffuse;
     if at >= pick.worths.diffuse {
-        let is_sheen = at >= pick.worths.diffuse + pick.worths.specular;
         m_inv = receiver.lobes.specular.m_inv;
         form_factor = pick.worths.specular / whole.specular;
-        if is_sheen {
-            m_inv = receiver.lobes.sheen.m_inv;
-            form_factor = pick.worths.sheen / whole.sheen;
-        }
+    }
+    if is_sheen {
+        m_inv = receiver.lobes.sheen.m_inv;
+        form_factor = pick.worths.sheen / whole.sheen;
     }
     let wo = samples_direction(receiver, pick.light, m_inv, form_factor, numbers.yz);
-    let densities = lights_densities(receiver, wo);
+    var densities = lights_densities(receiver, wo);
+    if VARIANT_PRIOR_SHEEN {
+        densities.sheen = 0.0;
+    }
     let scattered = shadows_scattered(receiver, densities, radiance, pick.base_weight);
     let density = whole.diffuse * densities.diffuse + whole.specular * densities.specular + whole.sheen * densities.sheen;
+    // Nothing where no point was found.
+    let blocked = select(vec3f(0.0), pick.total / density * scattered, density > 0.0);
     let direction = wo * receiver.local_from_world;
     let normal = polygons_lights[pick.light].normal;
     let to_vertex = polygons_vertices[polygons_lights[pick.light].first_vertex].xyz - receiver.p_world;
-    let distance = dot(normal, to_vertex) / dot(normal, direction);
-    // Nothing where no point was found.
-    let blocked = select(vec3f(0.0), pick.total / density * scattered, density > 0.0);
-    return shadows_ray(receiver, origin, direction, distance, polygons_lights[pick.light].light, blocked);
+    return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked);
 }
 
 fn shadows_to_punctual(receiver: Receiver, origin: ShadowsOrigin, pick: Pick) -> ShadowsRay {

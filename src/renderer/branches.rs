@@ -9,8 +9,10 @@ use std::path::Path;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::{AddressSpace, Block, Expression, Function, Handle, Module, Span, Statement, TypeInner};
 
+use super::accumulation::ACCUMULATION_WGSL;
 use super::display::DISPLAY_WGSL;
 use super::shader::SURFACES_WGSL;
+use super::shares::SHARES_WGSL;
 
 /// What something depends on: this, and maybe what stands before it here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -299,7 +301,7 @@ fn is_bound_of_a_loop(accept: &Block, reject: &Block) -> bool {
 
 #[test]
 fn no_pass_picks_a_variant_by_a_uniform() {
-    let passes = [SURFACES_WGSL, DISPLAY_WGSL];
+    let passes = [SURFACES_WGSL, ACCUMULATION_WGSL, SHARES_WGSL, DISPLAY_WGSL];
     for pass in passes {
         assert_eq!(variants_by_uniform(pass), [""; 0]);
     }
@@ -356,8 +358,8 @@ fn variants_by_uniform_are_found() {
     assert_eq!(in_a_pass("if frame.model == 1u && x > 0.0 { y = rich(x); }"), ["shade: frame.model == 1u && x > 0.0"]);
     let curve = DISPLAY_WGSL.replace("override DISPLAY_TONE_CURVE: u32 = 0;", "");
     let curve =
-        curve.replace("padding: vec2u", "curve: vec2u").replace("DISPLAY_TONE_CURVE", "display_uniforms.curve.x");
-    assert_eq!(variants_by_uniform(&curve), ["display_tone: switch display_uniforms.curve.x"]);
+        curve.replace("gain: f32,", "gain: f32, curve: u32").replace("DISPLAY_TONE_CURVE", "display_uniforms.curve");
+    assert_eq!(variants_by_uniform(&curve), ["display_tone: switch display_uniforms.curve"]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::lights::LightKinds;
 use super::materials::Look;
 use crate::scene::{Bounds, Drawn, Instance, Mesh, Scene};
 
-/// `SurfacesInstance` of `surfaces.wgsl`.
+/// `VerticesInstance` of `vertices.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuInstance {
@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn instances_stand_as_the_shader_reads_them() {
         let members = members!(GpuInstance { world_from_mesh, normal_from_mesh, emission, material, handedness });
-        assert_eq!(differences(SURFACES_WGSL, "SurfacesInstance", size_of::<GpuInstance>(), members), [""; 0]);
+        assert_eq!(differences(SURFACES_WGSL, "VerticesInstance", size_of::<GpuInstance>(), members), [""; 0]);
     }
 
     fn frustum(projection: Projection) -> Frustum {

@@ -33,8 +33,7 @@ pub(super) fn bind_group(
 ) -> BindGroup {
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     let uniform = uniform.map(|resource| entry(0, resource));
-    let textures =
-        textures.iter().map(|&(binding, view)| entry(binding, wgpu::BindingResource::TextureView(view)));
+    let textures = textures.iter().map(|&(binding, view)| entry(binding, wgpu::BindingResource::TextureView(view)));
     let entries: Vec<wgpu::BindGroupEntry> = uniform.into_iter().chain(textures).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }

@@ -41,7 +41,7 @@ impl Pipelines {
         let samples = if stage == Stage::Unshadowed { self.radiance.samples } else { 1 };
         let constants = self.constants(variant, stage, samples);
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let vertex = if attributes.any { "surfaces_vertex_textured" } else { "surfaces_vertex" };
+        let vertex = if attributes.any { "vertices_textured" } else { "vertices_plain" };
         let layouts = vertex_layouts(attributes);
         let targets = self.targets(look, stage);
         let fragment = fragment(variant, stage, samples).map(|entry_point| wgpu::FragmentState {
@@ -51,7 +51,8 @@ impl Pipelines {
             targets: &targets,
         });
         let is_shadowed = matches!(stage, Stage::Shadowed { .. });
-        let compare = if is_shadowed && !look.blend { wgpu::CompareFunction::Equal } else { wgpu::CompareFunction::Greater };
+        let compare =
+            if is_shadowed && !look.blend { wgpu::CompareFunction::Equal } else { wgpu::CompareFunction::Greater };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surfaces"),
             layout: Some(if is_shadowed { &self.shadowed_layout } else { &self.layout }),
@@ -122,7 +123,10 @@ impl Pipelines {
             Stage::Depth => Vec::new(),
             Stage::Shadowed { .. } => {
                 let blocked = wgpu::ColorTargetState { blend: look.blend.then_some(OVER), ..radiance.clone() };
-                [Some(radiance), Some(blocked)].into_iter().chain(self.guide.map(|format| Some(guide(format)))).collect()
+                [Some(radiance), Some(blocked)]
+                    .into_iter()
+                    .chain(self.guide.map(|format| Some(guide(format))))
+                    .collect()
             }
         }
     }

@@ -20,7 +20,8 @@ impl Sample {
     /// the centre.
     pub(super) fn offset(&self) -> [f32; 2] {
         const STEPS: [u32; 2] = [0xc13f_a9a9, 0x91e1_0da5];
-        let place = |step: u32| f64::from(step.wrapping_mul(self.index).wrapping_add(1 << 31)) / f64::from(1u32 << 31) / 2.0;
+        let place =
+            |step: u32| f64::from(step.wrapping_mul(self.index).wrapping_add(1 << 31)) / f64::from(1u32 << 31) / 2.0;
         if self.spread { STEPS.map(|step| (place(step) - 0.5) as f32) } else { [0.0; 2] }
     }
 

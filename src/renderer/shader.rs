@@ -9,11 +9,15 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/ggx.wgsl"),
     // What a pipeline is made for.
     include_str!("../../shaders/passes/variant.wgsl"),
+    // What a frame is drawn with.
+    include_str!("../../shaders/passes/frame.wgsl"),
     // Textures, looked up.
     include_str!("../../shaders/passes/texels.wgsl"),
     // What of a pixel is covered, and what shading is filtered over it.
     include_str!("../../shaders/passes/coverage.wgsl"),
     include_str!("../../shaders/passes/filters.wgsl"),
+    // Vertices.
+    include_str!("../../shaders/passes/vertices.wgsl"),
     // What a surface is made of.
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/prior_sheens.wgsl"),

@@ -269,7 +269,10 @@ fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texels: Vec<Wor
     }
     texels.resize(rows * ROW, [0; 4]);
     queue.write_texture(
-        wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: first_row as u32, z: 0 }, ..texture.as_image_copy() },
+        wgpu::TexelCopyTextureInfo {
+            origin: wgpu::Origin3d { x: 0, y: first_row as u32, z: 0 },
+            ..texture.as_image_copy()
+        },
         bytemuck::cast_slice(&texels),
         wgpu::TexelCopyBufferLayout {
             offset: 0,
@@ -314,11 +317,8 @@ fn alphas(gpu: &Gpu, alphas: &[u8]) -> TextureView {
 /// Group 2 of the surfaces' pass.
 pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, TextureSampleType, TextureViewDimension};
-    let blockers = BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
+    let blockers =
+        BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let numbers = texture(TextureSampleType::Uint, TextureViewDimension::D2);

@@ -51,7 +51,13 @@ impl SharesPass {
         let pipeline = |again: bool| {
             let again = usize::from(again);
             let constants = [("SHARES_STEP", STEPS[again].into()), ("SHARES_AGAIN", again as f64)];
-            fullscreen::pipeline(device, (&layout, &shader), ["shares_vertex", "shares_fragment"], &constants, &[FORMAT])
+            fullscreen::pipeline(
+                device,
+                (&layout, &shader),
+                ["shares_vertex", "shares_fragment"],
+                &constants,
+                &[FORMAT],
+            )
         };
         Self { pipelines: [pipeline(false), pipeline(true)], layout }
     }

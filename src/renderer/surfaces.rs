@@ -13,16 +13,16 @@ use super::draws::{Frustum, Variant};
 use super::pipelines::{Pipelines, Stage};
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
-use super::shader::SURFACES_WGSL;
 use super::sample::Sample;
+use super::shader::SURFACES_WGSL;
 use super::targets::{RadianceFormat, ShadowedTargets, Targets};
-use super::{shadows, tables};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
+use super::{shadows, tables};
 use crate::scene::Settings;
 use crate::table::SheenTable;
 
-/// `SurfacesFrame` of `surfaces.wgsl`.
+/// `Frame` of `frame.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Frame {
@@ -347,8 +347,20 @@ mod tests {
 
     #[test]
     fn the_frame_stands_as_the_shader_reads_it() {
-        let members =
-            members!(Frame { clip_from_world, eye, diffuse, specular, sheen, emission, origin, ambient, gain, sample, footprint, seed });
-        assert_eq!(differences(SURFACES_WGSL, "SurfacesFrame", size_of::<Frame>(), members), [""; 0]);
+        let members = members!(Frame {
+            clip_from_world,
+            eye,
+            diffuse,
+            specular,
+            sheen,
+            emission,
+            origin,
+            ambient,
+            gain,
+            sample,
+            footprint,
+            seed
+        });
+        assert_eq!(differences(SURFACES_WGSL, "Frame", size_of::<Frame>(), members), [""; 0]);
     }
 }

@@ -9,17 +9,21 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 13] = [
+pub const FLOORS: [&[&str]; 21] = [
     // What people copy.
     &["ltc", "ltc_sample", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
+    // What a frame is drawn with.
+    &["passes/frame"],
     // Textures, looked up.
     &["passes/texels"],
     // What of a pixel is covered,
     &["passes/coverage"],
     // and how shading is filtered over it.
     &["passes/filters"],
+    // Vertices; random numbers.
+    &["passes/vertices", "passes/randoms"],
     // What a surface is made of; sheens of prior work.
     &["passes/material", "passes/prior_sheens"],
     // How a surface scatters light.
@@ -30,16 +34,28 @@ pub const FLOORS: [&[&str]; 13] = [
     &["passes/polygons"],
     // and by points on it.
     &["passes/points"],
+    // Which lights get a ray.
+    &["passes/picks"],
     // What all lights send there.
     &["passes/lights"],
     // All of it together.
     &["passes/shading"],
-    // Entry points.
+    // What stands in the way of light,
+    &["passes/blockers"],
+    // rays through it,
+    &["passes/rays"],
+    // to points of lights:
+    &["passes/samples"],
+    // what is blocked.
+    &["passes/shadows"],
+    // Entry points,
     &["passes/surfaces", "passes/prior_albedos"],
+    // and those with shadows.
+    &["passes/shadowed"],
 ];
 
 /// Whole passes of one file: they name nobody else's, and nobody names theirs.
-const ALONE: [&str; 1] = ["passes/display"];
+const ALONE: [&str; 3] = ["passes/accumulation", "passes/shares", "passes/display"];
 
 fn all() -> impl Iterator<Item = &'static str> {
     FLOORS.concat().into_iter().chain(ALONE)
@@ -209,7 +225,7 @@ fn planted_violations_are_found() {
         ("sheen", "fn sheen_more() { let x = LTC_PI; }"),
         ("ggx", "fn ggx_more() { return lobes_at(0.5, 0.5, 0.5); }"),
         ("passes/display", "fn display_more() { return ltc_angle(0.0, 1.0); }"),
-        ("passes/display", "fn display_more() { return vec3f(surfaces_frame.gain); }"),
+        ("passes/display", "fn display_more() { return vec3f(frame_now.gain); }"),
         ("passes/surfaces", "fn surfaces_shown() { return display_tone(vec3f(0.0)); }"),
         ("passes/lights", "fn other() {}"),
         ("passes/lights", "struct Other { x: f32 }"),

@@ -84,7 +84,8 @@ pub fn run(arguments: &Reference) -> Result<(), Failure> {
         check_apart(errors, &inputs.scene, &arguments.picture.files())?;
     }
     let effort = Effort { samples: arguments.spp.into(), seed: arguments.picture.seed.into() };
-    let rendered = render(&inputs, &arguments.picture, arguments.options(&inputs.edits.settings()), effort, &mut timing)?;
+    let rendered =
+        render(&inputs, &arguments.picture, arguments.options(&inputs.edits.settings()), effort, &mut timing)?;
     if let Some(errors) = &arguments.errors {
         let bytes = rendered.picture.errors.to_exr_with_comment(&command()).map_err(Failure::input)?;
         write_atomically(errors, &bytes).map_err(Failure::input)?;
