@@ -9,7 +9,10 @@ pub enum Change {
     None,
     /// The tone curve has changed: what was drawn is shown again.
     Shown,
-    /// The view, the exposure, the ambient light, or which lobes are summed has changed: the scene is drawn again.
+    /// The exposure has changed: without shadows the scene is drawn again, with them shown again.
+    Exposed,
+    /// The view, the ambient light, or which lobes are summed has changed, or whether there are shadows: the scene is drawn
+    /// again.
     Drawn,
     /// Materials or lights have changed, or whether lights are visible: they are sent to the device first.
     Scene,
@@ -19,11 +22,13 @@ impl Change {
     /// What it takes to show `after` where `before` is shown.
     pub fn between(before: &Edits, after: &Edits) -> Self {
         let things = |edits: &Edits| (edits.every_material, edits.settings().lights_visible);
-        let drawn = |edits: &Edits| Settings { tone: Default::default(), ..edits.settings() };
+        let drawn = |edits: &Edits| Settings { tone: Default::default(), exposure: 0.0, ..edits.settings() };
         if things(before) != things(after) || before.materials != after.materials || before.lights != after.lights {
             Self::Scene
-        } else if before.camera != after.camera || before.exposure != after.exposure || drawn(before) != drawn(after) {
+        } else if before.camera != after.camera || drawn(before) != drawn(after) {
             Self::Drawn
+        } else if before.exposure != after.exposure {
+            Self::Exposed
         } else if before.tone != after.tone {
             Self::Shown
         } else {
@@ -48,8 +53,9 @@ mod tests {
             (Change::None, edits()),
             (Change::Shown, Edits { tone: Some(ToneCurve::Agx), ..edits() }),
             (Change::Drawn, Edits { camera: Some(CameraEdit::Loaded(1)), ..edits() }),
-            (Change::Drawn, Edits { exposure: Some(1.0.into()), ..edits() }),
-            (Change::Drawn, Edits { exposure: Some(Exposure::Auto), ..edits() }),
+            (Change::Exposed, Edits { exposure: Some(1.0.into()), ..edits() }),
+            (Change::Exposed, Edits { exposure: Some(Exposure::Auto), ..edits() }),
+            (Change::Drawn, Edits { shadows: Some(false), ..edits() }),
             (Change::Drawn, Edits { ambient: Some(Vec3::ONE), ..edits() }),
             (Change::Drawn, Edits { lobes: Some(Lobes::NONE), ..edits() }),
             (Change::Scene, Edits { lights_visible: Some(false), ..edits() }),

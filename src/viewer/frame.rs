@@ -6,11 +6,14 @@ use egui_wgpu::ScreenDescriptor;
 use wgpu::{CurrentSurfaceTexture, TextureView};
 
 use super::change::Change;
+use super::native::Task;
+use super::resting::{Resting, Step};
 use super::screen::Screen;
 use super::state::State;
 use super::{ViewerError, native};
 use crate::picture::{Blank, DisplayImage};
-use crate::renderer::{Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Showing, View};
+use crate::renderer::{Built, Format, Gpu, Offscreen, RadianceFormat, Rect, Renderer, Sample, Showing, View};
+use crate::scene::Settings;
 use crate::table::SheenTable;
 
 /// Samples per pixel of screenshots, and of the window where there is hardware to draw it.
@@ -40,6 +43,8 @@ pub(super) enum Redraw {
     First,
     /// All of it, with what was there already.
     Again,
+    /// One more sample of a picture at rest.
+    Sample,
 }
 
 /// The surface and what draws on it.
@@ -57,7 +62,19 @@ pub(super) struct Frame {
     is_checked: bool,
     /// Where the picture was drawn last.
     place: Rect,
+    /// What of a change has not been drawn yet.
+    undrawn: Change,
+    resting: Resting,
+    /// Whether a frame takes so long that what moves is drawn in fewer pixels.
+    is_slow: bool,
+    /// What is built for shadows.
+    building: Option<Task<Built>>,
 }
+
+/// Triangles that are sorted for shadows within a frame; more are on a thread of their own.
+const QUICK: usize = 10_000;
+/// What moves is drawn with so many times fewer pixels a side, where that is slow.
+const COARSE: u32 = 2;
 
 impl Frame {
     pub fn new(
@@ -85,7 +102,37 @@ impl Frame {
         let renderer = Renderer::new(&gpu, format, table, &state.drawn())?;
         let egui = egui_wgpu::Renderer::new(&gpu.device, configuration.format, Default::default());
         let place = Rect::full([0, 0]);
-        Ok(Self { surface, configuration, gpu, renderer, egui, freed: Vec::new(), made: 0, is_checked: false, place })
+        Ok(Self {
+            surface,
+            configuration,
+            gpu,
+            renderer,
+            egui,
+            freed: Vec::new(),
+            made: 0,
+            is_checked: false,
+            place,
+            undrawn: Change::Scene,
+            resting: Resting::default(),
+            is_slow: software,
+            building: None,
+        })
+    }
+
+    /// Whether more is to be drawn although nothing changes.
+    pub fn is_at_rest(&self, state: &State) -> bool {
+        !self.renderer.has_shadows(&state.settings()) || self.resting.is_at_rest()
+    }
+
+    /// Whether something is being built, and whether that has come to its end: then the picture is to be drawn.
+    pub fn building(&self) -> (bool, bool) {
+        let task = self.building.as_ref();
+        (task.is_some(), task.is_some_and(Task::is_done))
+    }
+
+    /// Samples of the picture that is shown, where it has shadows.
+    pub fn samples(&self, state: &State) -> Option<u32> {
+        self.renderer.has_shadows(&state.settings()).then(|| self.renderer.samples())
     }
 
     /// What is to be said of the view that was drawn last.
@@ -162,21 +209,62 @@ impl Frame {
         let size = [place.width, place.height];
         self.expose(state, size)?;
         let settings = state.settings();
-        let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
-        let mut drawn = Redraw::Nothing;
-        if screen.change >= Change::Drawn || size != [self.place.width, self.place.height] {
-            let view = View::new(&state.camera(), size, Rect::full(size));
-            self.renderer.draw(&self.gpu, encoder, size, (&view, &settings, showing));
-            drawn = Redraw::Again;
-        }
+        let resized = size != [self.place.width, self.place.height];
+        self.undrawn = self.undrawn.max(screen.change).max(if resized { Change::Drawn } else { Change::None });
         self.place = place;
-        self.renderer.show(&self.gpu, encoder, (output, [place.x, place.y]), showing);
-        let made = self.renderer.made();
-        if drawn == Redraw::Again && made != self.made {
-            drawn = Redraw::First;
+        // What was drawn before is shown until shadows follow.
+        let drawn = if self.build_shadows(state) { self.draw_picture(encoder, state, &settings) } else { Redraw::Nothing };
+        let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
+        self.renderer.show(&self.gpu, encoder, (output, place), showing);
+        let made = std::mem::replace(&mut self.made, self.renderer.made());
+        Ok(if drawn == Redraw::Again && made != self.made { Redraw::First } else { drawn })
+    }
+
+    fn draw_picture(&mut self, encoder: &mut wgpu::CommandEncoder, state: &State, settings: &Settings) -> Redraw {
+        let has_shadows = self.renderer.has_shadows(settings);
+        let least = if has_shadows { Change::Drawn } else { Change::Exposed };
+        let moved = std::mem::take(&mut self.undrawn) >= least;
+        let mut size = [self.place.width, self.place.height];
+        let step = match has_shadows {
+            true => self.resting.step(moved, self.is_slow),
+            false if moved => Step::Sample(0),
+            false => Step::Enough,
+        };
+        let index = match step {
+            Step::Enough => return Redraw::Nothing,
+            Step::Coarse => {
+                size = size.map(|side| side.div_ceil(COARSE));
+                0
+            }
+            Step::Sample(index) => index,
+        };
+        let full = [self.place.width, self.place.height];
+        let view = View::new(&state.camera(), full, Rect::full(full));
+        let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
+        let sample = Sample { index, seed: 0, spread: true };
+        self.renderer.draw(&self.gpu, encoder, size, (&view, settings, showing), &sample);
+        if moved { Redraw::Again } else { Redraw::Sample }
+    }
+
+    /// Sees to what shadows take, and whether the picture may be drawn: where it is built on a thread of its own the first picture
+    /// comes without shadows, others once it is there.
+    fn build_shadows(&mut self, state: &State) -> bool {
+        if let Some(task) = self.building.take_if(|task| task.is_done())
+            && let Some(built) = task.outcome()
+        {
+            self.renderer.receive(&self.gpu, built);
+            self.undrawn = Change::Scene;
         }
-        self.made = made;
-        Ok(drawn)
+        if self.building.is_none()
+            && let Some(blockers) = self.renderer.blockers(&self.gpu, &state.drawn())
+        {
+            if blockers.triangles() > QUICK {
+                self.building = Some(Task::start(|| blockers.build()));
+            } else {
+                self.renderer.receive(&self.gpu, blockers.build());
+            }
+        }
+        self.building.is_none() || !self.renderer.has_shadows(&state.settings())
     }
 
     /// Meters where that is asked for; and looks, once, whether the first picture shows anything.

@@ -35,6 +35,24 @@ pub(super) fn block_on_device<T>(gpu: &Gpu, future: impl Future<Output = T>) -> 
     gpu.block_on(future)
 }
 
+/// Work on a thread of its own.
+pub(super) struct Task<T>(std::thread::JoinHandle<T>);
+
+impl<T: Send + 'static> Task<T> {
+    pub fn start(work: impl FnOnce() -> T + Send + 'static) -> Self {
+        Self(std::thread::spawn(work))
+    }
+
+    pub fn is_done(&self) -> bool {
+        self.0.is_finished()
+    }
+
+    /// What came of it, waited for; none where it panicked, which has been said.
+    pub fn outcome(self) -> Option<T> {
+        self.0.join().ok()
+    }
+}
+
 /// Waits until the device has done all that it was asked for.
 pub(super) fn finish(gpu: &Gpu) {
     // A lost device shows in the next frame.

@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::resting::UNTIL;
 use super::state::State;
 use super::widgets::{Glow, hue_button, slider};
 use super::{lights, material, notices};
@@ -87,12 +88,22 @@ fn picture(ui: &mut Ui, state: &mut State) {
         ui.checkbox(&mut lobes.emission, "emission");
     });
     ui.checkbox(&mut settings.lights_visible, "lights visible");
+    ui.horizontal(|ui| {
+        let about = "What stands between a surface and a light stops it. While the view rests shadows grow finer, and edges smoother";
+        ui.checkbox(&mut settings.shadows, "shadows").on_hover_text(about);
+        if let Some(samples) = state.samples {
+            ui.weak(format!("{samples} of {} samples", UNTIL));
+        }
+    });
     // What is not touched is left unset.
     if settings.tone != before.tone {
         edits.tone = Some(settings.tone);
     }
     if settings.lobes != before.lobes {
         edits.lobes = Some(settings.lobes);
+    }
+    if settings.shadows != before.shadows {
+        edits.shadows = Some(settings.shadows);
     }
     if settings.lights_visible != before.lights_visible {
         edits.lights_visible = Some(settings.lights_visible);

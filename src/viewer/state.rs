@@ -17,6 +17,8 @@ pub struct State {
     pub material: usize,
     /// What the renderer has to say of the view that it drew last.
     pub notice: Option<String>,
+    /// Samples that the picture's shadows have so far; none where it has no shadows.
+    pub samples: Option<u32>,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
     /// What metering took for an exposure that is automatic; none before it has, and where it is to do so anew.
@@ -43,6 +45,7 @@ impl State {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
             notice: None,
+            samples: None,
             frame_time: None,
             metered: None,
             notices: scene.notices.clone(),

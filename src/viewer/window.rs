@@ -136,6 +136,14 @@ impl App {
     /// A pass, and a frame if that has led to something new.
     fn follow(&mut self) {
         self.pass();
+        if let Some(open) = &mut self.open {
+            let (is_building, is_built) = open.frame.building();
+            if is_built {
+                open.screen.lose();
+            } else if is_building && let Some(later) = native::after(REST) {
+                open.wake(later);
+            }
+        }
         if let Some(open) = self.open.as_ref().filter(|open| open.screen.is_stale()) {
             open.window.request_redraw();
         }
@@ -148,6 +156,9 @@ impl App {
             self.pass();
         }
         let Some(open) = &mut self.open else { return Ok(()) };
+        if open.frame.building().0 && let Some(later) = native::after(REST) {
+            open.wake(later);
+        }
         open.screen.lose();
         let shown = open.window.inner_size();
         if shown.width == 0 || shown.height == 0 {
@@ -166,6 +177,14 @@ impl App {
                 if self.state.notice.as_deref() != open.frame.notice() {
                     self.state.notice = open.frame.notice().map(str::to_owned);
                     open.wake(native::now());
+                }
+                let samples = open.frame.samples(&self.state);
+                if self.state.samples != samples {
+                    self.state.samples = samples;
+                    open.wake(native::now());
+                }
+                if !open.frame.is_at_rest(&self.state) {
+                    open.window.request_redraw();
                 }
                 if drawn == Redraw::Again {
                     open.frame_times.add(start.elapsed());

@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3};
 use velour::picture::ToneCurve;
-use velour::renderer::{Format, Gpu, RadianceFormat, Rect, Renderer, Showing, View};
+use velour::renderer::{Format, Gpu, RadianceFormat, Rect, Renderer, Sample, Showing, View};
 use velour::scene::{
     Camera, Drawn, Edits, Instance, Light, Material, Mesh, Polygon, Projection, Scene, Settings, Sheen,
 };
@@ -62,9 +62,9 @@ impl<'a> Stage<'a> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         if draws {
             let view = View::new(&self.camera, SIZE, Rect::full(SIZE));
-            self.renderer.draw(self.gpu, &mut encoder, SIZE, (&view, &self.settings, showing));
+            self.renderer.draw(self.gpu, &mut encoder, SIZE, (&view, &self.settings, showing), &Sample::FIRST);
         }
-        self.renderer.show(self.gpu, &mut encoder, (&self.output, [0, 0]), showing);
+        self.renderer.show(self.gpu, &mut encoder, (&self.output, Rect::full(SIZE)), showing);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     }
