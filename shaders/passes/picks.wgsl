@@ -6,7 +6,7 @@
 // Rays of a point and sample.
 const PICKS_RAYS = 4u;
 
-struct Pick {
+struct PicksKept {
     // The polygon's number; lights without extent count on from there.
     light: u32,
     // The luminance that it brings in each lobe, and what the sheen leaves of the base under it.
@@ -17,7 +17,7 @@ struct Pick {
 }
 
 // Filled while the point's lights are summed.
-var<private> picks_kept: array<Pick, PICKS_RAYS>;
+var<private> picks_kept: array<PicksKept, PICKS_RAYS>;
 var<private> picks_offered: u32;
 
 // Of Rec. 709.
@@ -45,7 +45,7 @@ fn picks_offer(receiver: Receiver, light: u32, radiance: vec3f, base_weight: f32
         let total = picks_kept[group].total + worth;
         picks_kept[group].total = total;
         if picks_offered < PICKS_RAYS || randoms_one(randoms_of(receiver.seed, light), receiver.sample) * total < worth {
-            picks_kept[group] = Pick(light, worths, base_weight, total);
+            picks_kept[group] = PicksKept(light, worths, base_weight, total);
         }
         picks_offered++;
     }

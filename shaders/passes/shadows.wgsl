@@ -73,7 +73,7 @@ fn shadows_blocked(receiver: Receiver, origin: ShadowsOrigin) -> vec3f {
     return blocked;
 }
 
-fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: Pick) -> ShadowsRay {
+fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {
     let start = randoms_of(receiver.seed, pick.light);
     let numbers = randoms_three(start, receiver.sample);
     let radiance = polygons_lights[pick.light].radiance;
@@ -112,7 +112,7 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: Pick) -> 
     return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked);
 }
 
-fn shadows_to_punctual(receiver: Receiver, origin: ShadowsOrigin, pick: Pick) -> ShadowsRay {
+fn shadows_to_punctual(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {
     let arriving = lights_arriving(receiver, lights_punctual[pick.light - lights_counts.polygons]);
     let densities = lights_densities(receiver, arriving.wo);
     let scattered = shadows_scattered(receiver, densities, arriving.irradiance, pick.base_weight);

@@ -9,6 +9,7 @@ mod blockers;
 #[cfg(test)]
 mod branches;
 mod calls;
+mod denoise;
 pub mod device;
 mod display;
 mod draws;
@@ -28,7 +29,6 @@ mod sample;
 mod shader;
 mod shadowed;
 mod shadows;
-mod shares;
 mod surfaces;
 mod tables;
 mod targets;

@@ -16,8 +16,9 @@ pub const SURFACES_WGSL: &str = concat!(
     // What of a pixel is covered, and what shading is filtered over it.
     include_str!("../../shaders/passes/coverage.wgsl"),
     include_str!("../../shaders/passes/filters.wgsl"),
-    // Vertices.
+    // Vertices; random numbers.
     include_str!("../../shaders/passes/vertices.wgsl"),
+    include_str!("../../shaders/passes/randoms.wgsl"),
     // What a surface is made of.
     include_str!("../../shaders/passes/material.wgsl"),
     include_str!("../../shaders/passes/prior_sheens.wgsl"),
@@ -25,7 +26,6 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/lobes.wgsl"),
     include_str!("../../shaders/passes/receiver.wgsl"),
     // What of the lights arrives there, and which of them get a ray.
-    include_str!("../../shaders/passes/randoms.wgsl"),
     include_str!("../../shaders/passes/polygons.wgsl"),
     include_str!("../../shaders/passes/points.wgsl"),
     include_str!("../../shaders/passes/picks.wgsl"),
@@ -39,6 +39,6 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/shadows.wgsl"),
     // Entry points.
     include_str!("../../shaders/passes/surfaces.wgsl"),
-    include_str!("../../shaders/passes/shadowed.wgsl"),
     include_str!("../../shaders/passes/prior_albedos.wgsl"),
+    include_str!("../../shaders/passes/shadowed.wgsl"),
 );

@@ -3,8 +3,8 @@
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 use super::accumulation::{AccumulationPass, Means};
+use super::denoise::{self, DenoisePass, Shares};
 use super::display::{DisplayPass, Drawn, Source};
-use super::shares::{self, Shares, SharesPass};
 use super::targets::{RadianceFormat, ShadowedTargets};
 use super::{Format, Gpu, Rect, Showing};
 
@@ -12,7 +12,7 @@ use super::{Format, Gpu, Rect, Showing};
 pub(super) struct Shadowed {
     formats: Formats,
     accumulation: AccumulationPass,
-    filter: Option<SharesPass>,
+    filter: Option<DenoisePass>,
     display: DisplayPass,
     picture: Option<Picture>,
     pictures_made: usize,
@@ -55,7 +55,7 @@ impl Shadowed {
         Self {
             formats,
             accumulation: AccumulationPass::new(device, formats.means),
-            filter: formats.guide.map(|_| SharesPass::new(device)),
+            filter: formats.guide.map(|_| DenoisePass::new(device)),
             display: DisplayPass::new(device, Source::Shadowed, format.output, format.measured),
             picture: None,
             pictures_made: 0,
@@ -108,7 +108,7 @@ impl Shadowed {
     pub fn show(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder, output: (&TextureView, Rect), showing: Showing) {
         let Some(picture) = &self.picture else { return };
         let (means, device) = (&picture.means[0], &gpu.device);
-        let passes = shares::passes(picture.samples);
+        let passes = denoise::passes(picture.samples);
         let filter = self.filter.as_ref().zip(picture.shares.as_ref()).zip(picture.targets.guide.as_ref());
         let shares = filter.filter(|_| passes > 0).map(|((filter, shares), guide)| {
             filter.encode(device, encoder, (means, guide), (shares, passes));

@@ -213,7 +213,8 @@ impl Frame {
         self.undrawn = self.undrawn.max(screen.change).max(if resized { Change::Drawn } else { Change::None });
         self.place = place;
         // What was drawn before is shown until shadows follow.
-        let drawn = if self.build_shadows(state) { self.draw_picture(encoder, state, &settings) } else { Redraw::Nothing };
+        let drawn =
+            if self.build_shadows(state) { self.draw_picture(encoder, state, &settings) } else { Redraw::Nothing };
         let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
         self.renderer.show(&self.gpu, encoder, (output, place), showing);
         let made = std::mem::replace(&mut self.made, self.renderer.made());

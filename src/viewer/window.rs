@@ -156,7 +156,9 @@ impl App {
             self.pass();
         }
         let Some(open) = &mut self.open else { return Ok(()) };
-        if open.frame.building().0 && let Some(later) = native::after(REST) {
+        if open.frame.building().0
+            && let Some(later) = native::after(REST)
+        {
             open.wake(later);
         }
         open.screen.lose();

@@ -55,7 +55,7 @@ pub const FLOORS: [&[&str]; 21] = [
 ];
 
 /// Whole passes of one file: they name nobody else's, and nobody names theirs.
-const ALONE: [&str; 3] = ["passes/accumulation", "passes/shares", "passes/display"];
+const ALONE: [&str; 3] = ["passes/accumulation", "passes/denoise", "passes/display"];
 
 fn all() -> impl Iterator<Item = &'static str> {
     FLOORS.concat().into_iter().chain(ALONE)

@@ -7,7 +7,7 @@ use super::fullscreen;
 use super::targets::attachment;
 
 /// The pass' WGSL.
-pub(super) const SHARES_WGSL: &str = include_str!("../../shaders/passes/shares.wgsl");
+pub(super) const DENOISE_WGSL: &str = include_str!("../../shaders/passes/denoise.wgsl");
 
 const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 /// How far apart the pixels of each pass' kernel are.
@@ -22,7 +22,7 @@ pub(super) fn passes(samples: u32) -> usize {
     }
 }
 
-pub(super) struct SharesPass {
+pub(super) struct DenoisePass {
     layout: BindGroupLayout,
     pipelines: [RenderPipeline; 2],
 }
@@ -32,7 +32,7 @@ pub(super) struct Shares([TextureView; 2]);
 
 impl Shares {
     pub fn new(device: &Device, size: [u32; 2]) -> Self {
-        Self([(); 2].map(|()| attachment(device, "shares", (size, 1, FORMAT), TextureUsages::TEXTURE_BINDING)))
+        Self([(); 2].map(|()| attachment(device, "denoise", (size, 1, FORMAT), TextureUsages::TEXTURE_BINDING)))
     }
 
     /// What the last of so many passes leaves.
@@ -41,20 +41,20 @@ impl Shares {
     }
 }
 
-impl SharesPass {
+impl DenoisePass {
     pub fn new(device: &Device) -> Self {
-        let layout = fullscreen::layout(device, "shares", false, &[0, 1, 2, 3].map(|binding| (binding, false)));
+        let layout = fullscreen::layout(device, "denoise", false, &[0, 1, 2, 3].map(|binding| (binding, false)));
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("shares"),
-            source: wgpu::ShaderSource::Wgsl(SHARES_WGSL.into()),
+            label: Some("denoise"),
+            source: wgpu::ShaderSource::Wgsl(DENOISE_WGSL.into()),
         });
         let pipeline = |again: bool| {
             let again = usize::from(again);
-            let constants = [("SHARES_STEP", STEPS[again].into()), ("SHARES_AGAIN", again as f64)];
+            let constants = [("DENOISE_STEP", STEPS[again].into()), ("DENOISE_AGAIN", again as f64)];
             fullscreen::pipeline(
                 device,
                 (&layout, &shader),
-                ["shares_vertex", "shares_fragment"],
+                ["denoise_vertex", "denoise_fragment"],
                 &constants,
                 &[FORMAT],
             )

@@ -2,68 +2,68 @@
 // pixels that see the same surface (a-trous wavelets, Dammertz et al. 2010, without their stop at edges of light).
 
 // How far apart the pixels of the kernel are.
-override SHARES_STEP: i32 = 1;
+override DENOISE_STEP: i32 = 1;
 // Whether shares have been taken before; otherwise this pass takes them.
-override SHARES_AGAIN: bool = false;
+override DENOISE_AGAIN: bool = false;
 
 // A neighbour counts less, the farther it is off the plane through the pixel, as a share of their distance,
-const SHARES_SLOPE = 0.1;
+const DENOISE_SLOPE = 0.1;
 // and the farther their normals are apart: a power of the cosine.
-const SHARES_POWER = 64.0;
+const DENOISE_POWER = 64.0;
 // A sample may leave more than there is, by noise.
-const SHARES_MOST = 1.2;
+const DENOISE_MOST = 1.2;
 
-@group(0) @binding(0) var shares_mean_radiance: texture_2d<f32>;
-@group(0) @binding(1) var shares_mean_blocked: texture_2d<f32>;
-@group(0) @binding(2) var shares_guide: texture_2d<f32>;
-@group(0) @binding(3) var shares_before: texture_2d<f32>;
+@group(0) @binding(0) var denoise_mean_radiance: texture_2d<f32>;
+@group(0) @binding(1) var denoise_mean_blocked: texture_2d<f32>;
+@group(0) @binding(2) var denoise_guide: texture_2d<f32>;
+@group(0) @binding(3) var denoise_before: texture_2d<f32>;
 
 @vertex
-fn shares_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+fn denoise_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let corner = vec2f(f32(index & 1u), f32(index >> 1u));
     return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
 }
 
 @fragment
-fn shares_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn denoise_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let center = vec2i(position.xy);
-    let last = vec2i(textureDimensions(shares_guide)) - 1;
-    let guide = textureLoad(shares_guide, center, 0);
-    let normal = shares_normal(guide.w);
+    let last = vec2i(textureDimensions(denoise_guide)) - 1;
+    let guide = textureLoad(denoise_guide, center, 0);
+    let normal = denoise_normal(guide.w);
     var sum = vec3f(0.0);
     var weights = 0.0;
     for (var row = -2; row <= 2; row++) {
         for (var column = -2; column <= 2; column++) {
-            let at = center + SHARES_STEP * vec2i(column, row);
-            let weight = shares_kernel(column) * shares_kernel(row) * shares_likeness(guide, normal, textureLoad(shares_guide, clamp(at, vec2i(0), last), 0));
+            let at = center + DENOISE_STEP * vec2i(column, row);
+            let weight = denoise_kernel(column) * denoise_kernel(row) * denoise_likeness(guide, normal, textureLoad(denoise_guide, clamp(at, vec2i(0), last), 0));
             let counts = all(at >= vec2i(0)) && all(at <= last) && weight > 0.0;
             if counts {
-                sum += weight * shares_at(at);
+                sum += weight * denoise_at(at);
                 weights += weight;
             }
         }
     }
-    return vec4f(select(shares_at(center), sum / weights, weights > 0.0), 1.0);
+    return vec4f(select(denoise_at(center), sum / weights, weights > 0.0), 1.0);
 }
 
 // Of the cubic B-spline.
-fn shares_kernel(offset: i32) -> f32 {
+fn denoise_kernel(offset: i32) -> f32 {
     return select(select(0.0625, 0.25, abs(offset) == 1), 0.375, offset == 0);
 }
 
 // How much two pixels see of the same surface; the second may be the first.
-fn shares_likeness(guide: vec4f, normal: vec3f, other: vec4f) -> f32 {
+fn denoise_likeness(guide: vec4f, normal: vec3f, other: vec4f) -> f32 {
     let way = other.xyz - guide.xyz;
     let off = dot(normal, way);
-    let allowed = SHARES_SLOPE * SHARES_SLOPE * dot(way, way);
+    let allowed = DENOISE_SLOPE * DENOISE_SLOPE * dot(way, way);
     let is_same = floor(guide.w / 262144.0) == floor(other.w / 262144.0);
     let in_plane = exp(-min(off * off / max(allowed, 1e-30), 80.0));
-    let cosine = max(dot(normal, shares_normal(other.w)), 0.0);
-    return select(0.0, in_plane * pow(cosine, SHARES_POWER), is_same);
+    let cosine = max(dot(normal, denoise_normal(other.w)), 0.0);
+    return select(0.0, in_plane * pow(cosine, DENOISE_POWER), is_same);
 }
 
 // What shadowed_packed has packed.
-fn shares_normal(packed: f32) -> vec3f {
+fn denoise_normal(packed: f32) -> vec3f {
     let bits = u32(packed);
     let flat = vec2f(f32(bits & 511u), f32((bits >> 9u) & 511u)) / 511.0 * 2.0 - 1.0;
     let height = 1.0 - abs(flat.x) - abs(flat.y);
@@ -72,12 +72,12 @@ fn shares_normal(packed: f32) -> vec3f {
 }
 
 // The share of the radiance that is left; 1 where there is none.
-fn shares_at(pixel: vec2i) -> vec3f {
-    if SHARES_AGAIN {
-        return textureLoad(shares_before, pixel, 0).rgb;
+fn denoise_at(pixel: vec2i) -> vec3f {
+    if DENOISE_AGAIN {
+        return textureLoad(denoise_before, pixel, 0).rgb;
     }
-    let radiance = textureLoad(shares_mean_radiance, pixel, 0).rgb;
-    let left = radiance - textureLoad(shares_mean_blocked, pixel, 0).rgb;
-    let share = clamp(left / max(radiance, vec3f(1e-30)), vec3f(0.0), vec3f(SHARES_MOST));
+    let radiance = textureLoad(denoise_mean_radiance, pixel, 0).rgb;
+    let left = radiance - textureLoad(denoise_mean_blocked, pixel, 0).rgb;
+    let share = clamp(left / max(radiance, vec3f(1e-30)), vec3f(0.0), vec3f(DENOISE_MOST));
     return select(vec3f(1.0), share, radiance > vec3f(0.0));
 }
