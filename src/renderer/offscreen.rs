@@ -16,7 +16,8 @@ pub struct Offscreen {
     renderer: Renderer,
     format: Format,
     notice: Option<String>,
-    /// How much work pictures with shadows are.
+    /// How much work pictures with shadows are: at first [`SAMPLES`] samples, all over the pixel if this was made with more than one
+    /// sample per pixel.
     pub effort: Effort,
 }
 
@@ -31,8 +32,8 @@ pub struct Effort {
     pub spread: bool,
 }
 
-/// Samples a pixel where nobody has said how many.
-pub const SAMPLES: u32 = 16;
+/// Samples a pixel where nobody has said how many: as few as leave no noise to see, so that nothing needs to be filtered.
+pub const SAMPLES: u32 = super::UNFILTERED;
 
 impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
@@ -129,6 +130,12 @@ impl Offscreen {
         self.notice.as_deref()
     }
 
+    /// Whether pictures with these settings have shadows: they are asked for, and the device can have them (else `notice` says
+    /// why not).
+    pub fn has_shadows(&self, settings: &Settings) -> bool {
+        self.renderer.has_shadows(settings)
+    }
+
     /// Sends what other edits make of the same scene to the device; its meshes and textures stay as they were.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
         self.renderer.update(gpu, drawn)?;
@@ -149,8 +156,9 @@ impl Offscreen {
         self.renderer.meter(gpu, camera, size, settings).await
     }
 
-    /// The picture as it is shown. Of the settings, `lights_visible` took effect when this was made or updated; the
-    /// others are read here. Panics unless this was made by `for_display`.
+    /// The picture as it is shown, with shadows of as many samples as `effort` says; those of fewer than
+    /// [`UNFILTERED`](super::UNFILTERED) are filtered. Of the settings, `lights_visible` took effect when this was made or updated,
+    /// as `shadows` did where they are off; the others are read here. Panics unless this was made by `for_display`.
     pub async fn display(
         &mut self,
         gpu: &Gpu,
@@ -164,8 +172,8 @@ impl Offscreen {
         Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
     }
 
-    /// Linear radiance; reads the settings as `display` does. With one sample per pixel, each pixel is the value at its
-    /// centre. Panics unless this was made by `for_linear`.
+    /// Linear radiance, never filtered; reads the settings as `display` does. Made with one sample per pixel, each pixel is the
+    /// value at its centre. Panics unless this was made by `for_linear`.
     pub async fn linear(
         &mut self,
         gpu: &Gpu,

@@ -50,7 +50,8 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
     let wanted = arguments.adapter.as_deref();
     let gpu = match timing.measure("device", || pollster::block_on(device::open_offscreen(wanted))) {
         Err(why) if wanted.is_none() => {
-            return without_device::render(&why, &arguments.picture, arguments.msaa, &inputs, timing);
+            let samples = (arguments.msaa, arguments.spp);
+            return without_device::render(&why, &arguments.picture, samples, &inputs, timing);
         }
         gpu => gpu.map_err(Failure::device)?,
     };
@@ -58,7 +59,9 @@ pub fn run(arguments: &Render) -> Result<(), Failure> {
     timing.measure("write", || write_atomically(&arguments.picture.output, &drawing.bytes)).map_err(Failure::input)?;
     inputs.warn();
     drawing.notice.iter().for_each(complain);
-    shortfall(drawing.radiance, arguments.msaa, inputs.format).into_iter().for_each(complain);
+    // With shadows all samples are drawn one by one.
+    let wanted = if drawing.has_shadows { 1 } else { arguments.msaa };
+    shortfall(drawing.radiance, wanted, inputs.format).into_iter().for_each(complain);
     drawing.exposed.iter().for_each(Exposed::warn);
     report(arguments, &inputs.scene, (&gpu, &drawing), &timing);
     Ok(())
@@ -94,6 +97,7 @@ struct Drawing {
     bytes: Vec<u8>,
     /// How its radiance was kept on the way.
     radiance: RadianceFormat,
+    has_shadows: bool,
     /// What the renderer has to say of it.
     notice: Option<String>,
     /// What it shows, of a .png.
@@ -125,7 +129,8 @@ fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> 
         }
     };
     let notice = renderer.notice().map(str::to_owned);
-    Ok(Drawing { bytes: bytes.map_err(Failure::input)?, radiance, notice, exposed })
+    let has_shadows = renderer.has_shadows(settings);
+    Ok(Drawing { bytes: bytes.map_err(Failure::input)?, radiance, has_shadows, notice, exposed })
 }
 
 /// What draws a picture that is shown.
@@ -173,6 +178,8 @@ fn report(arguments: &Render, scene: &Scene, (gpu, drawing): (&Gpu, &Drawing), t
         "output": output.to_string(),
         "size": arguments.picture.size,
         "msaa": drawing.radiance.samples,
+        // Without shadows there is nothing to be sampled.
+        "spp": drawing.has_shadows.then_some(arguments.spp),
         "adapter": adapter.name,
         "backend": format!("{:?}", adapter.backend).to_lowercase(),
         // Linear radiance has none.

@@ -3,6 +3,8 @@
 use velour::reference::{Effort, Filter, Options, SpecularModel};
 use velour::renderer::DeviceError;
 #[cfg(feature = "window")]
+use velour::renderer::SAMPLES;
+#[cfg(feature = "window")]
 use {
     crate::exposed::Exposed,
     crate::progress::with_progress,
@@ -18,29 +20,32 @@ use crate::picture_args::PictureArgs;
 use crate::reference;
 use crate::timing::Timing;
 
-/// Nobody has said how much work to do. The light that the fitted lobes scatter has no noise, so that these samples
-/// only smooth edges; earlier models and the reciprocal rule keep a few percent of noise.
-const EFFORT: Effort = Effort { samples: 16, seed: 0 };
+/// Where nobody has said how much work to do. The light that the fitted lobes scatter has no noise but that of shadows; earlier
+/// models and the reciprocal rule keep a few percent more.
+#[cfg(feature = "window")]
+const EFFORT: Effort = Effort { samples: SAMPLES as u64, seed: 0 };
 
-/// What `velour render` draws with `msaa` samples a pixel: without shadows; with one sample, at the pixels' centres.
+/// What `velour render` draws, with so many samples; at the pixels' centres with `msaa` 1.
 pub fn render(
     why: &DeviceError,
     arguments: &PictureArgs,
-    msaa: u32,
+    (msaa, samples): (u32, u32),
     inputs: &Inputs,
     mut timing: Timing,
 ) -> Result<(), Failure> {
     let filter = if msaa == 1 { Filter::Centre } else { Filter::Box };
-    let options = Options { filter, shadows: false, max_bounces: 0, specular: SpecularModel::Ltc };
+    let shadows = inputs.edits.settings().shadows;
+    let options = Options { filter, shadows, max_bounces: 0, specular: SpecularModel::Ltc };
+    let effort = Effort { samples: samples.into(), seed: arguments.seed.into() };
     complain(format!("{why}; the reference draws the picture, on the processor"));
-    let rendered = reference::render(inputs, arguments, options, EFFORT, &mut timing)?;
+    let rendered = reference::render(inputs, arguments, options, effort, &mut timing)?;
     reference::finish(arguments, inputs, &rendered, &mut timing)
 }
 
-/// What the viewer shows of a scene, without shadows.
+/// What the viewer shows of a scene.
 #[cfg(feature = "window")]
 pub fn plain(why: &DeviceError, scene: &Scene, edits: &Edits, size: [u32; 2]) -> Result<Exposed, Failure> {
-    let options = Options { shadows: false, ..Options::default() };
+    let options = Options { shadows: edits.settings().shadows, ..Options::default() };
     let (drawn, camera) = (Drawn::new(scene, edits), edits.camera(scene));
     let mut renderer = Reference::new(&drawn, &SheenTable::embedded(), options).map_err(reference::failure)?;
     complain(format!("{why}; the reference draws the picture, on the processor"));
