@@ -2,10 +2,11 @@
 
 use glam::{DVec3, Mat4, Vec3, Vec3Swizzles};
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Camera, Drawn, Edits, Material, Projection, Scene};
+use velour::scene::{AlphaMode, Camera, Edits, Material, Projection, Scene};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, linear};
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, looking, plain};
 
 const SIZE: [u32; 2] = [65, 65];
@@ -115,7 +116,7 @@ fn over(scene: &Scene, [origin, direction]: [DVec3; 2]) -> Option<DVec3> {
 /// Holds a scene's picture from each camera against rays, drawn by one renderer; with a pixel for each ray.
 fn hold(scene: &mut Scene, cameras: &[Camera]) {
     scene.cameras = cameras.to_vec();
-    let drawn = Drawn::new(scene, &Edits::default());
+    let drawn = unshadowed(scene, &Edits::default());
     let mut renderer = Offscreen::for_linear(&GPU, 1, &SheenTable::embedded(), &drawn).unwrap();
     for camera in cameras {
         let picture = GPU.block_on(renderer.linear(&GPU, camera, SIZE, &drawn.settings)).unwrap();
@@ -187,9 +188,9 @@ fn what_is_moved_is_sorted_anew() {
     let view = camera([0.1, 0.2, 3.0], perspective());
     scene.cameras = vec![view.clone()];
     let edits = Edits::default();
-    let mut renderer = Offscreen::for_linear(&GPU, 1, &SheenTable::embedded(), &Drawn::new(&scene, &edits)).unwrap();
+    let mut renderer = Offscreen::for_linear(&GPU, 1, &SheenTable::embedded(), &unshadowed(&scene, &edits)).unwrap();
     for z in [-0.4, 0.9, 0.1] {
-        let mut drawn = Drawn::new(&scene, &edits);
+        let mut drawn = unshadowed(&scene, &edits);
         drawn.instances.to_mut()[1].world_from_mesh = Mat4::from_translation(z * Vec3::Z);
         // What was opaque may be blended, and the other way round.
         drawn.materials[0].alpha_mode = if z == 0.1 { AlphaMode::Opaque } else { AlphaMode::Blend };

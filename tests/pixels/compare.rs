@@ -5,10 +5,11 @@ use std::sync::LazyLock;
 use glam::{DVec3, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::{Gpu, Offscreen, device};
-use velour::scene::{Drawn, Edits, Lobes, MaterialEdits, Scene, gltf};
+use velour::scene::{Edits, Lobes, MaterialEdits, Scene, gltf};
 use velour::table::SheenTable;
 
 use super::reference;
+use super::run::unshadowed;
 use super::stage::Stage;
 use super::truth::Truth;
 
@@ -45,7 +46,7 @@ pub fn sheen_alone() -> Edits {
 }
 
 pub fn linear(scene: &Scene, table: &SheenTable, edits: &Edits, size: [u32; 2]) -> LinearImage {
-    let drawn = Drawn::new(scene, edits);
+    let drawn = unshadowed(scene, edits);
     let mut renderer = Offscreen::for_linear(&GPU, 1, table, &drawn).unwrap();
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }

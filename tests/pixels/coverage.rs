@@ -3,10 +3,11 @@
 use glam::{Affine2, DVec2, Mat4, Vec2, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Drawn, Edits, Material, Projection, Scene, TextureSlot, linear_from_srgb};
+use velour::scene::{AlphaMode, Edits, Material, Projection, Scene, TextureSlot, linear_from_srgb};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, linear};
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, looking, plain};
 use super::textures::textured;
 
@@ -43,7 +44,7 @@ fn net(texels: Vec<[u8; 4]>, seen: f64) -> Scene {
 }
 
 fn filtered(scene: &Scene, size: [u32; 2]) -> LinearImage {
-    let drawn = Drawn::new(scene, &Edits::default());
+    let drawn = unshadowed(scene, &Edits::default());
     let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), &drawn).unwrap();
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }

@@ -2,10 +2,11 @@
 
 use glam::{Affine2, Mat4, Vec2, Vec3, Vec4};
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Camera, Drawn, Edits, Material, Projection, TextureSlot};
+use velour::scene::{AlphaMode, Camera, Edits, Material, Projection, TextureSlot};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear};
+use super::run::unshadowed;
 use super::stage::{looking, plain};
 use super::textures::{floor, textured};
 
@@ -49,7 +50,7 @@ fn seen_edge_on(alpha_mode: AlphaMode) {
     // The driver cannot be stopped: past its time the test ends without it.
     let (done, wait) = std::sync::mpsc::channel();
     std::thread::spawn(move || {
-        let drawn = Drawn::new(&scene, &Edits::default());
+        let drawn = unshadowed(&scene, &Edits::default());
         let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), &drawn).unwrap();
         let picture = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], [320, 240], &drawn.settings)).unwrap();
         done.send(picture).unwrap();

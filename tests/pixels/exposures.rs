@@ -2,11 +2,11 @@
 
 use velour::picture::{DisplayImage, Exposure};
 use velour::renderer::{Offscreen, RenderError};
-use velour::scene::{Camera, Drawn, Edits, Scene, Settings};
+use velour::scene::{Camera, Edits, Scene, Settings};
 use velour::table::SheenTable;
 
 use super::compare::GPU;
-use super::run::{Bench, small_stage};
+use super::run::{Bench, small_stage, unshadowed};
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
 /// A white floor that fills the picture, under a sky of this radiance, which is all that it scatters; and a lamp in sight,
@@ -20,7 +20,7 @@ fn floor(sky: f32, lamp: f32) -> (Scene, Edits) {
 }
 
 fn metered(scene: &Scene, edits: &Edits, samples: u32) -> Result<Option<f32>, RenderError> {
-    let drawn = Drawn::new(scene, edits);
+    let drawn = unshadowed(scene, edits);
     let mut renderer = Offscreen::for_display(&GPU, samples, &SheenTable::embedded(), &drawn)?;
     GPU.block_on(renderer.meter(&GPU, &edits.camera(scene), [320, 180], &drawn.settings))
 }

@@ -1,10 +1,11 @@
 //! Lights of all kinds: many, without extent, and those that are skipped.
 
 use glam::Vec3;
-use velour::scene::{Drawn, Edits, Light, LightEdits, Material, Projection, PunctualKind, PunctualLight};
+use velour::scene::{Edits, Light, LightEdits, Material, Projection, PunctualKind, PunctualLight};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, hold, linear, sheen_alone};
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
 use super::truth::Truth;
 
@@ -79,7 +80,7 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
     };
     let table = SheenTable::embedded();
     let mut scene = stage(12);
-    let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &unseen())).unwrap();
+    let mut offscreen = Offscreen::for_linear(&GPU, 1, &table, &unshadowed(&scene, &unseen())).unwrap();
     let picture = |offscreen: &mut Offscreen, scene: &velour::scene::Scene| {
         GPU.block_on(offscreen.linear(&GPU, &scene.cameras[0], SIZE, &unseen().settings())).unwrap()
     };
@@ -98,10 +99,10 @@ fn moved_added_and_dimmed_lights_are_as_new_ones() {
         position: Vec3::ZERO,
         direction: Vec3::NEG_Y,
     });
-    offscreen.update(&GPU, &Drawn::new(&scene, &edits)).unwrap();
+    offscreen.update(&GPU, &unshadowed(&scene, &edits)).unwrap();
     let after = picture(&mut offscreen, &scene);
     assert_ne!(before, after);
-    let mut anew = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &edits)).unwrap();
+    let mut anew = Offscreen::for_linear(&GPU, 1, &table, &unshadowed(&scene, &edits)).unwrap();
     assert_eq!(after, picture(&mut anew, &scene));
 }
 

@@ -7,11 +7,11 @@ use std::sync::LazyLock;
 use serde_json::Value;
 use velour::picture::{LinearImage, Picture};
 use velour::renderer::{Gpu, Offscreen, RadianceFormat, device};
-use velour::scene::{AlphaMode, Drawn, Edits, Scene, TextureSlot};
+use velour::scene::{AlphaMode, Edits, Scene, TextureSlot};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE};
-use super::run::Bench;
+use super::run::{Bench, unshadowed};
 use super::textures::{floor, rich, textured};
 
 /// What halves keep of a number: 11 binary digits, rounded either way.
@@ -57,7 +57,7 @@ fn hold(found: &[[f32; 3]], expected: &[[f32; 3]], bits: u32, what: &str) {
 }
 
 fn linear(gpu: &Gpu, scene: &Scene) -> (LinearImage, u32) {
-    let drawn = Drawn::new(scene, &Edits::default());
+    let drawn = unshadowed(scene, &Edits::default());
     let mut renderer = Offscreen::nearest_for_linear(gpu, 1, &SheenTable::embedded(), &drawn).unwrap();
     let picture = gpu.block_on(renderer.linear(gpu, &scene.cameras[0], SIZE, &drawn.settings)).unwrap();
     (picture, renderer.radiance().bits())
@@ -195,7 +195,7 @@ fn what_every_scene_needs_is_all_that_it_needs() {
     let least = Gpu { adapter: GPU.adapter.clone(), device, queue };
     let picture = |gpu: &Gpu| {
         let (table, scene) = (SheenTable::embedded(), rich_scene());
-        let drawn = Drawn::new(&scene, &Edits::default());
+        let drawn = unshadowed(&scene, &Edits::default());
         let mut renderer = Offscreen::for_display(gpu, 1, &table, &drawn).unwrap();
         gpu.block_on(renderer.display(gpu, &scene.cameras[0], SIZE, &drawn.settings)).unwrap()
     };

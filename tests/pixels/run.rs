@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
+use velour::scene::{Drawn, Edits, Scene};
 
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
 
@@ -12,6 +13,11 @@ pub fn small_stage() -> Stage {
     let floor = Thing::rectangle([1.5, 1.5], velvet([0.9, 0.5, 0.2], 0.4)).placed(facing([0.0; 3], [0.0, 1.0, 0.0]));
     let light = Thing::rectangle([0.5, 0.3], glow([4.0, 3.0, 2.0])).placed(facing([1.0, 1.2, -1.0], [0.0; 3]));
     Stage::new(vec![floor, light], looking([0.4, 1.1, 2.6], [0.0; 3]))
+}
+
+/// What edits draw of a scene with nothing in the way of light, which is the closed form.
+pub fn unshadowed<'a>(scene: &'a Scene, edits: &Edits) -> Drawn<'a> {
+    Drawn::new(scene, &Edits { shadows: Some(false), ..edits.clone() })
 }
 
 /// A folder that holds `scene.glb` and whatever a test puts there, in which the binary runs.

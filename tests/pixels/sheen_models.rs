@@ -6,12 +6,13 @@ use velour::picture::LinearImage;
 use velour::reference::{Filter, Options, Picture};
 use velour::renderer::Offscreen;
 use velour::scene::{
-    Drawn, Edits, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Scene, Sheen, SheenModel,
+    Edits, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Scene, Sheen, SheenModel,
 };
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear, sheen_alone};
 use super::reference::traced;
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, plain, velvet};
 
 const MODELS: [SheenModel; 4] =
@@ -210,10 +211,10 @@ fn lights_that_are_near_are_roughly_right() {
 #[test]
 fn a_change_of_model_is_taken_over() {
     let (table, scene) = (SheenTable::embedded(), stage(velvet([0.9, 0.5, 0.2], 0.4), vec![window()]).scene());
-    let mut renderer = Offscreen::for_linear(&GPU, 1, &table, &Drawn::new(&scene, &sheen_alone())).unwrap();
+    let mut renderer = Offscreen::for_linear(&GPU, 1, &table, &unshadowed(&scene, &sheen_alone())).unwrap();
     for model in [SheenModel::Patry, SheenModel::Ltc, SheenModel::Burley] {
         let edits = with(model, &sheen_alone());
-        let drawn = Drawn::new(&scene, &edits);
+        let drawn = unshadowed(&scene, &edits);
         renderer.update(&GPU, &drawn).unwrap();
         let picture = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap();
         assert_eq!(picture.pixels, linear(&scene, &table, &edits, SIZE).pixels, "{model:?}");

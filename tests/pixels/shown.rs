@@ -3,10 +3,11 @@
 use glam::{Mat4, Vec2, Vec3};
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Drawn, Edits, Scene};
+use velour::scene::{AlphaMode, Edits, Scene};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, differences, linear, sheen_alone};
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, velvet};
 use super::truth::Truth;
 
@@ -19,7 +20,7 @@ fn stage() -> Stage {
 }
 
 fn shown(scene: &Scene, samples: u32, edits: &Edits, tone: ToneCurve, size: [u32; 2]) -> DisplayImage {
-    let drawn = Drawn::new(scene, &Edits { tone: Some(tone), ..edits.clone() });
+    let drawn = unshadowed(scene, &Edits { tone: Some(tone), ..edits.clone() });
     let mut renderer = Offscreen::for_display(&GPU, samples, &SheenTable::embedded(), &drawn).unwrap();
     GPU.block_on(renderer.display(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }
@@ -83,7 +84,7 @@ fn four_samples_smooth_the_edges_alone() {
     let (stage, edits, table) = (stage(), Edits::default(), SheenTable::embedded());
     let scene = stage.scene();
     let single = linear(&scene, &table, &edits, SIZE);
-    let drawn = Drawn::new(&scene, &edits);
+    let drawn = unshadowed(&scene, &edits);
     let mut renderer = Offscreen::for_linear(&GPU, 4, &table, &drawn).unwrap();
     let smooth = GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap();
     let truth = Truth::new(&stage, &table, &edits, SIZE);

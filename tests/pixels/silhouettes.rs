@@ -3,11 +3,12 @@
 use glam::{Mat4, Vec3};
 use velour::picture::LinearImage;
 use velour::renderer::Offscreen;
-use velour::scene::{Drawn, Edits, Material, Projection, Scene, gltf};
+use velour::scene::{Edits, Material, Projection, Scene, gltf};
 use velour::table::SheenTable;
 
 use super::compare::{GPU, changed, linear};
 use super::golden::root;
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
 /// Samples a pixel along each axis.
@@ -47,7 +48,7 @@ fn lit_ball(material: Material) -> Scene {
 }
 
 fn filtered(scene: &Scene, edits: &Edits, size: [u32; 2]) -> LinearImage {
-    let drawn = Drawn::new(scene, edits);
+    let drawn = unshadowed(scene, edits);
     let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), &drawn).unwrap();
     GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], size, &drawn.settings)).unwrap()
 }

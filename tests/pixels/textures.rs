@@ -4,12 +4,13 @@ use glam::{Affine2, Vec2, Vec3, Vec4};
 use velour::picture::LinearImage;
 use velour::renderer::Offscreen;
 use velour::scene::{
-    AlphaMode, Drawn, Edits, Image, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Sampler,
-    Scene, Sheen, Texture, TextureSlot, TextureUse, linear_from_srgb,
+    AlphaMode, Edits, Image, Layering, Lobes, Material, MaterialEdits, PunctualKind, PunctualLight, Sampler, Scene,
+    Sheen, Texture, TextureSlot, TextureUse, linear_from_srgb,
 };
 use velour::table::SheenTable;
 
 use super::compare::{GPU, SIZE, linear};
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
@@ -261,7 +262,7 @@ fn a_mapped_normal_is_one_that_the_mesh_might_have() {
 fn flat_normal_maps_leave_sharp_reflections_sharp() {
     let edits = Edits { lights_visible: Some(false), ..Edits::default() };
     let filtered = |scene: &Scene| {
-        let drawn = Drawn::new(scene, &edits);
+        let drawn = unshadowed(scene, &edits);
         let mut renderer = Offscreen::for_linear(&GPU, 4, &SheenTable::embedded(), &drawn).unwrap();
         GPU.block_on(renderer.linear(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap()
     };

@@ -4,10 +4,11 @@ use glam::Vec3;
 use velour::picture::{DisplayImage, ToneCurve};
 use velour::reference::{Effort, Options, Reference};
 use velour::renderer::Offscreen;
-use velour::scene::{AlphaMode, Drawn, Edits, Material, Projection, Scene};
+use velour::scene::{AlphaMode, Edits, Material, Projection, Scene};
 use velour::table::SheenTable;
 
 use super::compare::GPU;
+use super::run::unshadowed;
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 
 /// Cells of a grid, along a side, and pixels of a cell, likewise.
@@ -46,7 +47,7 @@ fn sheet(z: f32, material: Material) -> Thing {
 /// The picture by the device, with one sample a pixel and with four, and by the reference.
 fn shown(scene: &Scene, exposure: f32, tone: ToneCurve) -> [DisplayImage; 3] {
     let table = SheenTable::embedded();
-    let drawn = Drawn::new(scene, &Edits { exposure: Some(exposure.into()), tone: Some(tone), ..Edits::default() });
+    let drawn = unshadowed(scene, &Edits { exposure: Some(exposure.into()), tone: Some(tone), ..Edits::default() });
     let [single, smooth] = [1, 4].map(|samples| {
         let mut renderer = Offscreen::for_display(&GPU, samples, &table, &drawn).unwrap();
         GPU.block_on(renderer.display(&GPU, &scene.cameras[0], SIZE, &drawn.settings)).unwrap()
