@@ -94,15 +94,15 @@ def check(vertices, flat, triangles):
 
 def photo_set():
     """The sweep and its three lamps, all of them outside the picture."""
-    floor = glb.matte("floor", (0.072, 0.063, 0.058))
+    floor = glb.matte("floor", (0.054, 0.0475, 0.044))
     return [
         glb.Part("floor", *glb.backdrop(half_width=9.0, front=7.0, rear=-4.5, height=7.0, radius=3.2), floor),
-        # A warm softbox at the left, whose shadow falls to the right; a hexagon above the camera that looks into the folds;
-        # a cool panel high up behind. The panel looks down rather than forward, so that the plane it lies in, where
-        # its light ends, meets the sweep at the picture's upper edge.
-        glb.polygon_light("key", glb.rectangle(1.0, 1.3), (165.0, 148.0, 127.0), (-2.6, 2.3, 0.6), MIDDLE),
+        # A warm softbox at the left, whose shadow falls to the right; a hexagon above the camera, which looks into the folds; a
+        # cool panel high up behind. It looks down rather than forward, so that the plane it lies in, where its light ends,
+        # meets the sweep at the picture's upper edge.
+        glb.polygon_light("key", glb.rectangle(1.0, 1.3), (180.0, 162.0, 139.0), (-2.6, 2.6, 0.6), MIDDLE),
         glb.polygon_light("fill", glb.regular_polygon(6, 1.2), (7.0, 7.6, 8.8), (1.0, 1.6, 5.2), MIDDLE),
-        glb.polygon_light("rim", glb.rectangle(1.1, 0.5), (80.0, 87.0, 102.0), (1.5, 1.95, -1.2), (0.8, 0.0, -0.25)),
+        glb.polygon_light("rim", glb.rectangle(1.1, 0.5), (74.0, 80.0, 95.0), (1.5, 1.95, -1.2), (0.8, 0.0, -0.25)),
     ]
 
 

@@ -123,8 +123,8 @@ def main(path):
     vertices, normals = vertices @ turn.T, normals @ turn.T
     vertices[:, 1] += PLINTH_HEIGHT - SUNK - vertices[:, 1].min()
     check(vertices, triangles)
-    # Red lacquer under grey dust: the less of it, the redder.
-    dusty = glb.matte("dusty", (0.075, 0.003, 0.005), 0.3, sheen_color=(0.42, 0.43, 0.41), sheen_roughness=0.85)
+    # Blue lacquer under sand: opposite hues, so that dust is told from light.
+    dusty = glb.matte("dusty", (0.001, 0.02, 0.062), 0.3, sheen_color=(0.56, 0.4, 0.2), sheen_roughness=0.85)
     parts = [
         glb.Part("sculpture", vertices, normals, triangles, dusty),
         glb.Part("plinth", *plinth(), glb.matte("plinth", (0.09, 0.086, 0.082), 0.6)),
