@@ -330,18 +330,18 @@ def crosses(p, q, a, b, c):
     """Whether the segment pq passes through the triangle abc (Moeller and Trumbore 1997)."""
     d, e, f = q - p, b - a, c - a
     h = np.cross(d, f)
-    volume = np.dot(e, h)
+    volume = (e * h).sum()
     if abs(volume) < 1e-18:
         return False
     s = p - a
-    u = np.dot(s, h) / volume
+    u = (s * h).sum() / volume
     if u < 0.0 or u > 1.0:
         return False
     k = np.cross(s, e)
-    v = np.dot(d, k) / volume
+    v = (d * k).sum() / volume
     if v < 0.0 or u + v > 1.0:
         return False
-    t = np.dot(f, k) / volume
+    t = (f * k).sum() / volume
     return 0.0 <= t <= 1.0
 
 

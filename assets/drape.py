@@ -1,4 +1,4 @@
-"""Makes drape.glb: a round velvet cloth that fell over a ball on a column. See README.md beside this file.
+"""Makes drape.glb: a velvet cloth that fell over a ball on a column, on a photographer's set. See README.md beside this file.
 
     python drape.py [OUT.glb]
 """
@@ -12,12 +12,14 @@ import cloth
 import glb
 
 # The form: a ball on a round column, hidden by the cloth (centre x, y, z, radius, radius of the column; metres).
-BALL_TOP, FORM = 1.12, np.array([(0.0, 0.88, 0.0, 0.24, 0.1)])
+BALL_TOP, FORM = 1.08, np.array([(0.0, 0.72, 0.0, 0.36, 0.12)])
 # The cloth, flat: half its width, how round its corners are, how it is turned and where it is laid.
-HALF_WIDTH = 1.32
+HALF_WIDTH = 1.36
 ROUNDNESS = 0.7
 TURN = np.radians(27.0)
 OFFSET = (0.02, -0.03)
+# What the lamps are turned to.
+MIDDLE = (0.0, 0.5, 0.0)
 # Vertices along each side during the fall.
 COARSE = 101
 SMOOTHING_PASSES = 1
@@ -90,6 +92,20 @@ def check(vertices, flat, triangles):
     assert np.abs(strain).mean() < 0.01 and np.abs(strain).max() < 0.25, "the cloth is stretched"
 
 
+def photo_set():
+    """The sweep and its three lamps, all of them outside the picture."""
+    floor = glb.matte("floor", (0.054, 0.0475, 0.044))
+    return [
+        glb.Part("floor", *glb.backdrop(half_width=9.0, front=7.0, rear=-4.5, height=7.0, radius=3.2), floor),
+        # A warm softbox at the left, whose shadow falls to the right; a hexagon above the camera, which looks into the folds; a
+        # cool panel high up behind. It looks down rather than forward, so that the plane it lies in, where its light ends,
+        # meets the sweep at the picture's upper edge.
+        glb.polygon_light("key", glb.rectangle(1.0, 1.3), (180.0, 162.0, 139.0), (-2.6, 2.6, 0.6), MIDDLE),
+        glb.polygon_light("fill", glb.regular_polygon(6, 1.2), (7.0, 7.6, 8.8), (1.0, 1.6, 5.2), MIDDLE),
+        glb.polygon_light("rim", glb.rectangle(1.1, 0.5), (74.0, 80.0, 95.0), (1.5, 1.95, -1.2), (0.8, 0.0, -0.25)),
+    ]
+
+
 def main(path):
     vertices, flat = fall()
     n = len(flat)
@@ -99,19 +115,12 @@ def main(path):
     # Reversed, so that the upper side is the front.
     triangles = glb.grid_triangles(n, n, falling=fold_lines(vertices, flat))[:, ::-1]
     check(vertices, flat, triangles)
-    velvet = glb.matte("velvet", (0.05, 0.0025, 0.0065), 1.0, sheen_color=(0.95, 0.1, 0.15), sheen_roughness=0.4, double_sided=True)
-    floor = glb.matte("floor", (0.06, 0.062, 0.068))
-    middle = (0.0, 0.65, 0.0)
-    parts = [
-        glb.Part("cloth", vertices, glb.vertex_normals(vertices, triangles), triangles, velvet),
-        glb.Part("floor", *glb.backdrop(half_width=10.0, front=6.0, rear=-6.0, height=8.0, radius=2.5), floor),
-        # A warm softbox high up on the picture's left, and a cool one behind on its right, which grazes the folds.
-        glb.polygon_light("key", glb.rectangle(2.0, 1.4), (40.0, 33.0, 26.0), (-2.3, 2.0, 1.2), middle),
-        glb.polygon_light("rim", glb.regular_polygon(6, 0.25), (230.0, 285.0, 385.0), (1.38, 1.08, -1.7), middle),
-    ]
-    camera = glb.Camera((0.0, 1.1, 4.6), (0.0, 0.55, 0.0), np.radians(18.0))
+    # A cool base and a warm sheen: what alpha does is a change of hue, not only of brightness.
+    velvet = glb.matte("velvet", (0.002, 0.038, 0.052), 1.0, sheen_color=(0.95, 0.48, 0.36), sheen_roughness=0.4, double_sided=True)
+    parts = [glb.Part("cloth", vertices, glb.vertex_normals(vertices, triangles), triangles, velvet), *photo_set()]
+    camera = glb.Camera((0.0, 1.1, 4.6), (0.0, 0.515, 0.0), np.radians(18.2))
     size = glb.write(path, parts, camera, "assets/drape.py")
-    glb.verify(path, middle)
+    glb.verify(path, MIDDLE)
     print(f"{path}: {size} bytes", file=sys.stderr)
 
 

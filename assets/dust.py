@@ -1,4 +1,4 @@
-"""Makes dust.glb: a twisted, keeled ring on a plinth, for the dusty look. See README.md beside this file.
+"""Makes dust.glb: a twisted, keeled ring on a plinth, for the dusty look, on a photographer's set. See README.md beside this file.
 
     python dust.py [OUT.glb]
 """
@@ -21,6 +21,8 @@ RING, THICKNESS, GROWTH = 0.33, 0.19, 0.25
 # How deep the form is let into the plinth, and how it is turned to the camera.
 SUNK, YAW = 0.025, np.radians(-24.0)
 PLINTH_HEIGHT, PLINTH_RADIUS, PLINTH_EDGE = 0.16, 0.34, 0.018
+# What the lamps are turned to.
+MIDDLE = (0.0, 0.62, 0.0)
 
 
 def profile(v):
@@ -103,6 +105,17 @@ def check(vertices, triangles):
     assert THICKNESS * (1 + GROWTH) * profile(0.0) < RING
 
 
+def photo_set():
+    """The sweep and its three lamps, all of them outside the picture; drape.py says what each is for."""
+    floor = glb.matte("floor", (0.072, 0.068, 0.066))
+    return [
+        glb.Part("floor", *glb.backdrop(half_width=9.0, front=7.0, rear=-4.5, height=7.0, radius=3.2), floor),
+        glb.polygon_light("key", glb.rectangle(1.0, 1.3), (125.0, 116.0, 104.0), (-2.6, 2.3, 0.8), MIDDLE),
+        glb.polygon_light("fill", glb.regular_polygon(6, 1.2), (6.0, 6.5, 7.6), (1.0, 1.6, 5.2), MIDDLE),
+        glb.polygon_light("rim", glb.regular_polygon(8, 0.45), (70.0, 77.0, 91.0), (1.5, 1.95, -1.2), (0.8, 0.1, -0.25)),
+    ]
+
+
 def main(path):
     vertices, normals, triangles = ring()
     c, s = np.cos(YAW), np.sin(YAW)
@@ -110,20 +123,16 @@ def main(path):
     vertices, normals = vertices @ turn.T, normals @ turn.T
     vertices[:, 1] += PLINTH_HEIGHT - SUNK - vertices[:, 1].min()
     check(vertices, triangles)
-    dusty = glb.matte("dusty", (0.06, 0.05, 0.045), 0.3, sheen_color=(0.9, 0.85, 0.75), sheen_roughness=0.85)
-    floor = glb.matte("floor", (0.08, 0.082, 0.088))
-    middle = (0.0, 0.62, 0.0)
+    # Blue lacquer under sand: opposite hues, so that dust is told from light.
+    dusty = glb.matte("dusty", (0.001, 0.02, 0.062), 0.3, sheen_color=(0.56, 0.4, 0.2), sheen_roughness=0.85)
     parts = [
         glb.Part("sculpture", vertices, normals, triangles, dusty),
-        glb.Part("plinth", *plinth(), glb.matte("plinth", (0.16, 0.15, 0.14), 0.6)),
-        glb.Part("floor", *glb.backdrop(half_width=10.0, front=6.0, rear=-6.0, height=8.0, radius=2.5), floor),
-        glb.polygon_light("key", glb.rectangle(1.0, 1.4), (34.0, 30.0, 25.0), (-2.3, 1.9, 0.9), middle),
-        glb.polygon_light("rim", glb.regular_polygon(8, 0.45), (60.0, 75.0, 100.0), (1.7, 1.95, -1.8), middle),
-        glb.polygon_light("kicker", glb.regular_polygon(3, 0.4), (70.0, 42.0, 20.0), (-2.15, 0.95, -1.5), middle),
+        glb.Part("plinth", *plinth(), glb.matte("plinth", (0.09, 0.086, 0.082), 0.6)),
+        *photo_set(),
     ]
-    camera = glb.Camera((0.0, 1.0, 4.4), (0.0, 0.58, 0.0), np.radians(18.0))
+    camera = glb.Camera((0.0, 1.0, 4.4), (0.0, 0.55, 0.0), np.radians(18.0))
     size = glb.write(path, parts, camera, "assets/dust.py")
-    glb.verify(path, middle)
+    glb.verify(path, MIDDLE)
     print(f"{path}: {size} bytes", file=sys.stderr)
 
 
