@@ -13,10 +13,16 @@ const DENOISE_POWER = 64.0;
 // A sample may leave more than there is, by noise.
 const DENOISE_MOST = 1.2;
 
-@group(0) @binding(0) var denoise_mean_radiance: texture_2d<f32>;
-@group(0) @binding(1) var denoise_mean_blocked: texture_2d<f32>;
-@group(0) @binding(2) var denoise_guide: texture_2d<f32>;
-@group(0) @binding(3) var denoise_before: texture_2d<f32>;
+struct DenoiseUniforms {
+    // How much neighbours count, in [0, 1]: the less, the more samples there are.
+    neighbours: f32,
+}
+
+@group(0) @binding(0) var<uniform> denoise_uniforms: DenoiseUniforms;
+@group(0) @binding(1) var denoise_mean_radiance: texture_2d<f32>;
+@group(0) @binding(2) var denoise_mean_blocked: texture_2d<f32>;
+@group(0) @binding(3) var denoise_guide: texture_2d<f32>;
+@group(0) @binding(4) var denoise_before: texture_2d<f32>;
 
 @vertex
 fn denoise_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -35,7 +41,9 @@ fn denoise_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     for (var row = -2; row <= 2; row++) {
         for (var column = -2; column <= 2; column++) {
             let at = center + DENOISE_STEP * vec2i(column, row);
-            let weight = denoise_kernel(column) * denoise_kernel(row) * denoise_likeness(guide, normal, textureLoad(denoise_guide, clamp(at, vec2i(0), last), 0));
+            let other = textureLoad(denoise_guide, clamp(at, vec2i(0), last), 0);
+            let likeness = denoise_likeness(guide, normal, other) * select(denoise_uniforms.neighbours, 1.0, row == 0 && column == 0);
+            let weight = denoise_kernel(column) * denoise_kernel(row) * likeness;
             let counts = all(at >= vec2i(0)) && all(at <= last) && weight > 0.0;
             if counts {
                 sum += weight * denoise_at(at);

@@ -1,10 +1,14 @@
 //! The filter of shadows while samples are few.
 
-use wgpu::{BindGroupLayout, CommandEncoder, Device, RenderPipeline, TextureFormat, TextureUsages, TextureView};
+use bytemuck::{Pod, Zeroable};
+use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderPipeline};
+use wgpu::{TextureFormat, TextureUsages, TextureView};
 
+use super::UNFILTERED;
 use super::accumulation::Means;
 use super::fullscreen;
 use super::targets::attachment;
+use super::tracked_buffer::TrackedBuffer;
 
 /// The pass' WGSL.
 pub(super) const DENOISE_WGSL: &str = include_str!("../../shaders/passes/denoise.wgsl");
@@ -13,18 +17,35 @@ const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 /// How far apart the pixels of each pass' kernel are.
 const STEPS: [i32; 2] = [1, 2];
 
-/// How many times a picture of so many samples is filtered: from [`UNFILTERED`](super::UNFILTERED) on not at all.
+/// Samples up to which neighbours count in full.
+const WIDE: u32 = 16;
+
+/// How many times a picture of so many samples is filtered: from [`UNFILTERED`] on not at all.
 pub(super) fn passes(samples: u32) -> usize {
     match samples {
         0..4 => 2,
-        4..super::UNFILTERED => 1,
+        4..UNFILTERED => 1,
         _ => 0,
     }
+}
+
+/// How much neighbours count then: the filter narrows until it is gone.
+fn neighbours(samples: u32) -> f32 {
+    let left = UNFILTERED.saturating_sub(samples) as f32 / (UNFILTERED - WIDE) as f32;
+    left.min(1.0)
+}
+
+/// `DenoiseUniforms` of `denoise.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Uniforms {
+    neighbours: f32,
 }
 
 pub(super) struct DenoisePass {
     layout: BindGroupLayout,
     pipelines: [RenderPipeline; 2],
+    uniforms: TrackedBuffer,
 }
 
 /// Of a picture's size.
@@ -34,16 +55,11 @@ impl Shares {
     pub fn new(device: &Device, size: [u32; 2]) -> Self {
         Self([(); 2].map(|()| attachment(device, "denoise", (size, 1, FORMAT), TextureUsages::TEXTURE_BINDING)))
     }
-
-    /// What the last of so many passes leaves.
-    pub fn after(&self, passes: usize) -> &TextureView {
-        &self.0[(passes + 1) % 2]
-    }
 }
 
 impl DenoisePass {
     pub fn new(device: &Device) -> Self {
-        let layout = fullscreen::layout(device, "denoise", false, &[0, 1, 2, 3].map(|binding| (binding, false)));
+        let layout = fullscreen::layout(device, "denoise", true, &[1, 2, 3, 4].map(|binding| (binding, false)));
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("denoise"),
             source: wgpu::ShaderSource::Wgsl(DENOISE_WGSL.into()),
@@ -59,22 +75,48 @@ impl DenoisePass {
                 &[FORMAT],
             )
         };
-        Self { pipelines: [pipeline(false), pipeline(true)], layout }
+        let uniforms = [0; size_of::<Uniforms>()];
+        let uniforms = TrackedBuffer::new(device, "denoise", &uniforms, BufferUsages::UNIFORM);
+        Self { pipelines: [pipeline(false), pipeline(true)], layout, uniforms }
     }
 
-    /// Filters the shares of the means so many times, by the guide.
-    pub fn encode(
-        &self,
-        device: &Device,
+    /// Filters the shares of the means of so many samples, by the guide; what the last of the passes leaves, if there are any.
+    pub fn encode<'a>(
+        &mut self,
+        (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
-        (means, guide): (&Means, &TextureView),
-        (shares, passes): (&Shares, usize),
-    ) {
-        for index in 0..passes {
+        (means, samples, guide): (&Means, u32, &TextureView),
+        shares: &'a Shares,
+    ) -> Option<&'a TextureView> {
+        let uniforms = Uniforms { neighbours: neighbours(samples) };
+        self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
+        let mut last = None;
+        for index in 0..passes(samples) {
             let [output, before] = [&shares.0[index % 2], &shares.0[(index + 1) % 2]];
-            let textures = [(0, &means.radiance), (1, &means.blocked), (2, guide), (3, before)];
-            let bind_group = fullscreen::bind_group(device, &self.layout, None, &textures);
+            let textures = [(1, &means.radiance), (2, &means.blocked), (3, guide), (4, before)];
+            let bind_group = fullscreen::bind_group(device, &self.layout, Some(self.uniforms.binding()), &textures);
             fullscreen::run(encoder, (&self.pipelines[index.min(1)], &bind_group), &[output], None);
+            last = Some(output);
         }
+        last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::*;
+
+    #[test]
+    fn the_uniforms_stand_as_the_shader_reads_them() {
+        let members = members!(Uniforms { neighbours });
+        assert_eq!(differences(DENOISE_WGSL, "DenoiseUniforms", size_of::<Uniforms>(), members), [""; 0]);
+    }
+
+    #[test]
+    fn the_filter_narrows_and_is_gone() {
+        assert_eq!([0, 3, 4, UNFILTERED - 1, UNFILTERED].map(passes), [2, 2, 1, 1, 0]);
+        assert_eq!([1, WIDE, UNFILTERED].map(neighbours), [1.0, 1.0, 0.0]);
+        assert!((1..2 * UNFILTERED).all(|samples| neighbours(samples + 1) <= neighbours(samples)));
     }
 }

@@ -107,7 +107,7 @@ pub struct Format {
 }
 
 /// Samples from which on a picture is shown as they are; shadows of fewer are filtered.
-pub const UNFILTERED: u32 = 16;
+pub const UNFILTERED: u32 = 64;
 
 /// A scene on a device, ready to be drawn from any view.
 pub struct Renderer {

@@ -32,8 +32,8 @@ pub struct Effort {
     pub spread: bool,
 }
 
-/// Samples a pixel where nobody has said how many: as few as leave no noise to see, so that nothing needs to be filtered.
-pub const SAMPLES: u32 = super::UNFILTERED;
+/// Samples a pixel where nobody has said how many: filtered, they leave no noise to see.
+pub const SAMPLES: u32 = 16;
 
 impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,

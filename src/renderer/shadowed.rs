@@ -3,7 +3,7 @@
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 use super::accumulation::{AccumulationPass, Means};
-use super::denoise::{self, DenoisePass, Shares};
+use super::denoise::{DenoisePass, Shares};
 use super::display::{DisplayPass, Drawn, Source};
 use super::targets::{RadianceFormat, ShadowedTargets};
 use super::{Format, Gpu, Rect, Showing};
@@ -108,11 +108,9 @@ impl Shadowed {
     pub fn show(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder, output: (&TextureView, Rect), showing: Showing) {
         let Some(picture) = &self.picture else { return };
         let (means, device) = (&picture.means[0], &gpu.device);
-        let passes = denoise::passes(picture.samples);
-        let filter = self.filter.as_ref().zip(picture.shares.as_ref()).zip(picture.targets.guide.as_ref());
-        let shares = filter.filter(|_| passes > 0).map(|((filter, shares), guide)| {
-            filter.encode(device, encoder, (means, guide), (shares, passes));
-            shares.after(passes)
+        let guided = picture.shares.as_ref().zip(picture.targets.guide.as_ref());
+        let shares = self.filter.as_mut().zip(guided).and_then(|(filter, (shares, guide))| {
+            filter.encode((device, &gpu.queue), encoder, (means, picture.samples, guide), shares)
         });
         let drawn = Drawn::Shadowed { means, shares, size: picture.size, gain: showing.gain() / picture.gain };
         self.display.encode((device, &gpu.queue), encoder, &drawn, output, showing);

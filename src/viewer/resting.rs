@@ -1,8 +1,10 @@
 //! Which sample of the picture comes next: while things move, the first one over and over; at rest more and more, up to a
 //! number, and then none.
 
-/// Samples of a picture at rest.
-pub const UNTIL: u32 = 64;
+use crate::renderer::UNFILTERED;
+
+/// Samples of a picture at rest: as many as it takes to show them as they are.
+pub const UNTIL: u32 = UNFILTERED;
 
 /// The samples of the picture that is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
