@@ -18,13 +18,13 @@ const FORMAT: TextureFormat = TextureFormat::Rgba16Float;
 const STEPS: [i32; 2] = [1, 2];
 
 /// Samples up to which neighbours count in full.
-const WIDE: u32 = 16;
+const WIDE: u32 = 4;
 
 /// How many times a picture of so many samples is filtered: from [`UNFILTERED`] on not at all.
 pub(super) fn passes(samples: u32) -> usize {
     match samples {
-        0..4 => 2,
-        4..UNFILTERED => 1,
+        0..16 => 2,
+        16..UNFILTERED => 1,
         _ => 0,
     }
 }
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn the_filter_narrows_and_is_gone() {
-        assert_eq!([0, 3, 4, UNFILTERED - 1, UNFILTERED].map(passes), [2, 2, 1, 1, 0]);
+        assert_eq!([0, 15, 16, UNFILTERED - 1, UNFILTERED].map(passes), [2, 2, 1, 1, 0]);
         assert_eq!([1, WIDE, UNFILTERED].map(neighbours), [1.0, 1.0, 0.0]);
         assert!((1..2 * UNFILTERED).all(|samples| neighbours(samples + 1) <= neighbours(samples)));
     }
