@@ -34,6 +34,8 @@ mod tables;
 mod targets;
 mod textures;
 mod tracked_buffer;
+#[cfg(test)]
+mod traversal_tests;
 mod view;
 
 pub use device::{DeviceError, Gpu};
