@@ -6,9 +6,9 @@ use rand_pcg::Pcg64;
 use wgpu::util::DeviceExt;
 use wgpu::{BindGroupLayout, BufferUsages, ComputePipeline};
 
-use super::device::{self, Gpu};
-use super::shader::SURFACES_WGSL;
-use super::shadows::Shadows;
+use super::super::device::{self, Gpu};
+use super::super::shader::SURFACES_WGSL;
+use super::super::shadows::Shadows;
 use crate::math::warp::unit_sphere;
 use crate::scene::{
     AlphaMode, Drawn, Edits, Image, Instance, Light, Material, Mesh, Sampler, Scene, Texture, TextureSlot, TextureUse,
