@@ -32,10 +32,10 @@ mod shadows;
 mod surfaces;
 mod tables;
 mod targets;
+#[cfg(test)]
+mod tests;
 mod textures;
 mod tracked_buffer;
-#[cfg(test)]
-mod traversal_tests;
 mod view;
 
 pub use device::{DeviceError, Gpu};

@@ -29,6 +29,7 @@ mod reference_command;
 mod run;
 mod screenshot;
 mod shadows;
+mod shadows_table;
 mod sheen_models;
 mod shown;
 mod silhouettes;

@@ -23,7 +23,7 @@ fn centred(samples: u32, seed: u32) -> Effort {
     Effort { samples, seed, spread: false }
 }
 
-fn offscreen(case: &Case, is_shown: bool, effort: Effort) -> Offscreen {
+pub fn offscreen(case: &Case, is_shown: bool, effort: Effort) -> Offscreen {
     let (table, drawn) = (SheenTable::embedded(), Drawn::new(&case.scene, &case.edits));
     let make = if is_shown { Offscreen::for_display } else { Offscreen::for_linear };
     let mut offscreen = make(&GPU, 1, &table, &drawn).unwrap();
@@ -32,7 +32,7 @@ fn offscreen(case: &Case, is_shown: bool, effort: Effort) -> Offscreen {
 }
 
 /// Real time's picture, in linear radiance.
-pub fn pictured(case: &Case, size: [u32; 2], effort: Effort) -> LinearImage {
+fn pictured(case: &Case, size: [u32; 2], effort: Effort) -> LinearImage {
     let settings = case.edits.settings();
     let mut offscreen = offscreen(case, false, effort);
     GPU.block_on(offscreen.linear(&GPU, &case.scene.cameras[0], size, &settings)).unwrap()

@@ -1,0 +1,3 @@
+//! On a device.
+
+mod traversal;
