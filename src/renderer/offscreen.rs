@@ -33,7 +33,7 @@ pub struct Effort {
 }
 
 /// Samples a pixel where nobody has said how many: filtered, they leave no noise to see.
-pub const SAMPLES: u32 = 4;
+pub const SAMPLES: u32 = 3;
 
 impl Offscreen {
     /// For pictures that are shown (`display`), with 1 or 4 samples per pixel. Fails where the adapter cannot draw so,
