@@ -28,6 +28,8 @@ const MERGED_MAX: usize = 1 << 18;
 
 /// The most cells along a side of a pattern.
 const PATTERN_SIDE: u32 = 512;
+/// Flat parts that may have patterns; more of them have none, which would take long to make.
+const PATTERNED_MAX: usize = 256;
 /// The most cells of all patterns of a scene together.
 const PATTERNS_MAX: f64 = (1 << 21) as f64;
 
@@ -95,16 +97,19 @@ pub(super) fn add_lights(scene: &mut Scene, first: usize, notices: &mut Notices)
     scene.lights.extend(lights);
 }
 
-/// The most cells along a side of a pattern.
+/// The most cells along a side of a pattern; none where there are too many parts.
 fn pattern_side(emitters: &[Emitter], glows: &mut Glows) -> u32 {
     let varying = emitters.iter().filter(|emitter| glows.varies(emitter.instance));
     let count: usize = varying.filter_map(|emitter| emitter.flat.as_ref()).map(Vec::len).sum();
+    if count > PATTERNED_MAX {
+        return 0;
+    }
     PATTERN_SIDE.min((PATTERNS_MAX / count.max(1) as f64).sqrt() as u32)
 }
 
 /// The polygons of an emitter's flat parts, each with what it shows. Where that varies, the mean of it is seen.
 fn patterned(surface: &Surface, place: Mat4, islands: Vec<Island>, most: u32, seen: &mut Seen) -> Vec<Polygon> {
-    let found = Patterns::new(surface, place.as_dmat4(), &islands, most);
+    let found = (most > 0).then(|| Patterns::new(surface, place.as_dmat4(), &islands, most)).flatten();
     let mut polygons: Vec<Polygon> = islands.into_iter().map(|island| island.polygon).collect();
     if let Some(Patterns { patterns, mean }) = found {
         seen.emission = mean;
