@@ -117,7 +117,7 @@ impl<P: Primitive> Bvh<P> {
     }
 
     /// The same in units of one's choice, which is for several hierarchies that a ray is to go through: where the coordinates
-    /// begin, and half the size of a cube about it in which most things are, over [`SPAN`].
+    /// begin, and half the size of a cube about it in which most things are, over 2^20.
     pub fn in_units(primitives: Vec<P>, (center, scale): (DVec3, f64)) -> Self {
         let bounded = |primitive: P| {
             let bounds = primitive.bounds();
