@@ -8,6 +8,8 @@ struct Blockers {
     roots: vec2u,
     // Where the looks of what is cut out or blended begin in blockers_nodes, BLOCKERS_LOOK each.
     first_look: u32,
+    // Where the triangles begin there.
+    first_triangle: u32,
 }
 
 struct BlockersTriangle {
@@ -34,12 +36,11 @@ const BLOCKERS_REPEAT = 0u;
 const BLOCKERS_MIRROR = 1u;
 
 @group(2) @binding(0) var<uniform> blockers_all: Blockers;
-// Nodes of trees, and what triangles that are cut out or blended let through. Textures, of numbers in rows one after the other: they hold more than
-// buffers may, and software drivers read them faster.
+// Nodes of trees, what triangles that are cut out or blended let through, and the triangles. A texture, of numbers in rows one after the other: it holds
+// more than buffers may, and software drivers read it faster.
 @group(2) @binding(1) var blockers_nodes: texture_2d<u32>;
-@group(2) @binding(2) var blockers_triangles: texture_2d<u32>;
 // The alphas of images, one after the other, row by row, and on in the next layer.
-@group(2) @binding(3) var blockers_alphas: texture_2d_array<f32>;
+@group(2) @binding(2) var blockers_alphas: texture_2d_array<f32>;
 
 fn blockers_place(index: u32) -> vec2u {
     return vec2u(index & ((1u << BLOCKERS_ROW) - 1u), index >> BLOCKERS_ROW);
@@ -50,10 +51,10 @@ fn blockers_node(index: u32) -> vec4u {
 }
 
 fn blockers_triangle(index: u32) -> BlockersTriangle {
-    let first = BLOCKERS_TRIANGLE * index;
-    let corner = textureLoad(blockers_triangles, blockers_place(first), 0);
-    let first_edge = textureLoad(blockers_triangles, blockers_place(first + 1u), 0);
-    let second_edge = textureLoad(blockers_triangles, blockers_place(first + 2u), 0);
+    let first = blockers_all.first_triangle + BLOCKERS_TRIANGLE * index;
+    let corner = blockers_node(first);
+    let first_edge = blockers_node(first + 1u);
+    let second_edge = blockers_node(first + 2u);
     return BlockersTriangle(
         bitcast<vec3f>(corner.xyz), corner.w, bitcast<vec3f>(first_edge.xyz), first_edge.w, bitcast<vec3f>(second_edge.xyz),
     );

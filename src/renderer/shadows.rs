@@ -27,7 +27,7 @@ struct GpuBlockers {
     unit: f32,
     roots: [u32; 2],
     first_look: u32,
-    padding: u32,
+    first_triangle: u32,
 }
 
 /// What stands in the way of light in a scene as it is drawn, on its way to the device: first gathered, then built, which
@@ -91,8 +91,7 @@ pub(super) struct Shadows {
 
 struct ResidentTrees {
     blockers: TrackedBuffer,
-    nodes: Texture,
-    triangles: Texture,
+    numbers: Texture,
     bind_group: BindGroup,
     held: GpuBlockers,
     opacities: bool,
@@ -193,37 +192,42 @@ impl ResidentTrees {
         let first_look = first_record + OPACITY * opacities.records.len();
         let texels = [first_look + OPACITY * opacities.looks.len(), first_triangle + TRIANGLE * others.triangles.len()];
         let most = device.limits().max_texture_dimension_2d as usize;
-        if texels.into_iter().any(|texels| rows(texels) > most) {
+        let [node_rows, triangle_rows] = texels.map(rows);
+        if node_rows + triangle_rows > most {
             return Err(format!("what casts shadows is more than the adapter holds: {WITHOUT}; simplify the scene"));
         }
         others.place(root / NODE, first_triangle / TRIANGLE, first_record);
-        let [nodes, triangles] = texels.map(|texels| numbers(device, rows(texels)));
+        let numbers = numbers(device, node_rows + triangle_rows);
         let mut words: Vec<Words> = bytemuck::cast_vec(others.nodes);
         words.extend(opacities.records.as_flattened());
         words.extend(opacities.looks.as_flattened());
-        write(&gpu.queue, &nodes, root / ROW, words);
-        write(&gpu.queue, &triangles, first_triangle / ROW, bytemuck::cast_vec(others.triangles));
+        write(&gpu.queue, &numbers, root / ROW, words);
+        write(&gpu.queue, &numbers, node_rows + first_triangle / ROW, bytemuck::cast_vec(others.triangles));
         let root = (root < first_record).then_some((root / NODE) as u32);
         let (roots, first_look) = ([NONE; 2], first_look as u32);
-        let held = GpuBlockers { center: center.as_vec3(), unit: unit as f32, roots, first_look, padding: 0 };
+        let held = GpuBlockers {
+            center: center.as_vec3(),
+            unit: unit as f32,
+            roots,
+            first_look,
+            first_triangle: (node_rows * ROW) as u32,
+        };
         let blockers = TrackedBuffer::new(device, "blockers", bytemuck::bytes_of(&held), BufferUsages::UNIFORM);
         let alphas = alphas(gpu, &opacities.alphas);
-        let views = [&nodes, &triangles].map(|texture| texture.create_view(&Default::default()));
+        let view = numbers.create_view(&Default::default());
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("blockers"),
             layout,
             entries: &[
                 entry(0, blockers.binding()),
-                entry(1, wgpu::BindingResource::TextureView(&views[0])),
-                entry(2, wgpu::BindingResource::TextureView(&views[1])),
-                entry(3, wgpu::BindingResource::TextureView(&alphas)),
+                entry(1, wgpu::BindingResource::TextureView(&view)),
+                entry(2, wgpu::BindingResource::TextureView(&alphas)),
             ],
         });
         let opacities = !opacities.records.is_empty();
         let places = Placed::new();
-        let mut resident =
-            Self { blockers, nodes, triangles, bind_group, held, opacities, root, first_record, placed: places };
+        let mut resident = Self { blockers, numbers, bind_group, held, opacities, root, first_record, placed: places };
         resident.replace_emitters(&gpu.queue, emitters, placed);
         Ok(resident)
     }
@@ -231,8 +235,8 @@ impl ResidentTrees {
     fn replace_emitters(&mut self, queue: &Queue, mut emitters: Tree, placed: Placed) {
         emitters.place(0, 0, self.first_record);
         let moving = (!emitters.nodes.is_empty()).then_some(0);
-        write(queue, &self.nodes, 0, bytemuck::cast_vec(emitters.nodes));
-        write(queue, &self.triangles, 0, bytemuck::cast_vec(emitters.triangles));
+        write(queue, &self.numbers, 0, bytemuck::cast_vec(emitters.nodes));
+        write(queue, &self.numbers, self.held.first_triangle as usize / ROW, bytemuck::cast_vec(emitters.triangles));
         self.held.roots = match (self.root, moving) {
             (Some(root), moving) => [root, moving.unwrap_or(NONE)],
             (None, moving) => [moving.unwrap_or(NONE), NONE],
@@ -323,7 +327,7 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let numbers = texture(TextureSampleType::Uint, TextureViewDimension::D2);
     let alphas = texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2Array);
-    let types = [blockers, numbers, numbers, alphas];
+    let types = [blockers, numbers, alphas];
     let entry =
         |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None };
     let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..).zip(types).map(entry).collect();
@@ -338,7 +342,7 @@ mod tests {
 
     #[test]
     fn trees_stand_as_the_shader_reads_them() {
-        let members = members!(GpuBlockers { center, unit, roots, first_look });
+        let members = members!(GpuBlockers { center, unit, roots, first_look, first_triangle });
         assert_eq!(differences(SURFACES_WGSL, "Blockers", size_of::<GpuBlockers>(), members), [""; 0]);
     }
 }
