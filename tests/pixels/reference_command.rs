@@ -124,7 +124,7 @@ fn without_a_device_the_reference_renders() {
     let bench = Bench::new();
     let shown = |name: &str| DisplayImage::from_png(&std::fs::read(bench.path(name)).unwrap()).unwrap();
     for msaa in [1, 4] {
-        let arguments = format!("render scene.glb --size 48x32 --msaa {msaa} -o");
+        let arguments = format!("render scene.glb --size 48x32 --spp 64 --msaa {msaa} -o");
         bench.run(&format!("{arguments} device.png"));
         let output = deviceless(bench.command(&format!("{arguments} bare.png"))).output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();

@@ -94,7 +94,9 @@ fn render_default(scene: &Scene, output: &Path) -> Result<(), Failure> {
             let mut shows = Shows { gpu: &gpu, renderer: &mut renderer, camera: &camera, size: SIZE, settings, timing };
             let exposed = Exposed::new(&edits, &mut shows)?;
             renderer.notice().into_iter().for_each(complain);
-            render::shortfall(renderer.radiance(), SAMPLES, Format::Png).into_iter().for_each(complain);
+            // With shadows all samples are drawn one by one.
+            let wanted = if renderer.has_shadows(settings) { 1 } else { SAMPLES };
+            render::shortfall(renderer.radiance(), wanted, Format::Png).into_iter().for_each(complain);
             exposed
         }
     };
