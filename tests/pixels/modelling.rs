@@ -121,7 +121,7 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
             // With one colour and full weight the rules are the same.
             assert!((gltf - openpbr).abs() < 1e-3, "{gltf} {openpbr}");
             // Half of the last digit that is quoted, and the noise of 64 samples.
-            for ((found, said), allowed) in [gltf, reciprocal, none].into_iter().zip(said).zip([2e-3, 2e-3, 1e-2]) {
+            for ((found, said), allowed) in [gltf, reciprocal, none].into_iter().zip(said).zip([3e-3, 3e-3, 1e-2]) {
                 let said = said[column];
                 if (found - said).abs() > allowed {
                     wrong.push(format!("{name}, alpha {alpha}: {found:+.4} is not {said}"));
