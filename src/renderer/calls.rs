@@ -14,6 +14,7 @@ pub(super) enum Source {
 }
 
 /// Instances of a batch, one after the other, with the same indices.
+#[derive(Clone)]
 pub(super) struct Draw<'a> {
     pub batch: &'a Batch,
     pub instances: Range<u32>,

@@ -146,10 +146,9 @@ impl SurfacesPass {
         let view = view.shifted(sample.offset(), targets.size);
         self.write_frame(queue, (&view, settings, gain), sample);
         let (opaque, blended) = self.draws(things, &view);
-        let calls = split(opaque.into_iter(), self.triangles_a_pass);
+        let calls = split(opaque.iter().cloned(), self.triangles_a_pass);
         self.run(encoder, things, (&calls, Stage::Depth, None), (&[], &targets.depth, [true; 2]));
         // Where two surfaces are equally near, the first is seen, also of those that are drawn where depth is equal.
-        let (opaque, _) = self.draws(things, &view);
         let calls = split(opaque.into_iter().rev().chain(blended), self.triangles_a_pass);
         let colors = [Some(&targets.radiance), Some(&targets.blocked), targets.guide.as_ref()];
         let colors = &colors[..if targets.guide.is_some() { 3 } else { 2 }];

@@ -256,7 +256,9 @@ impl Frame {
             self.renderer.receive(&self.gpu, built);
             self.undrawn = Change::Scene;
         }
+        // At rest nothing can have become stale.
         if self.building.is_none()
+            && self.undrawn >= Change::Drawn
             && let Some(blockers) = self.renderer.blockers(&self.gpu, &state.drawn())
         {
             if blockers.triangles() > QUICK {
