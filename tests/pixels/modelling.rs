@@ -81,9 +81,9 @@ fn the_fit_is_as_far_from_the_slab_as_is_said() {
 
 /// What the rules `gltf`, `reciprocal` and `none` change of a picture's total light over a base, at each of three alphas.
 const RULES: [(&str, [[f64; 3]; 3]); 3] = [
-    ("grey 0.5, diffuse", [[0.014, 0.064, 0.129], [-0.006, -0.006, 0.083], [0.04, 0.20, 0.49]]),
-    ("white 0.9, diffuse", [[0.005, 0.023, 0.053], [-0.015, -0.051, -0.007], [0.03, 0.16, 0.51]]),
-    ("metal 0.9, roughness 0.5", [[0.070, 0.035, 0.029], [0.063, 0.000, -0.004], [0.08, 0.12, 0.42]]),
+    ("grey 0.5, diffuse", [[0.011, 0.064, 0.128], [-0.010, -0.006, 0.082], [0.04, 0.20, 0.49]]),
+    ("white 0.9, diffuse", [[0.002, 0.024, 0.051], [-0.019, -0.050, -0.009], [0.03, 0.16, 0.51]]),
+    ("metal 0.9, roughness 0.5", [[0.066, 0.033, 0.028], [0.059, -0.002, -0.004], [0.08, 0.12, 0.42]]),
 ];
 
 /// A row of the table on the page; the last rule's figures are whole per cents.
@@ -114,14 +114,14 @@ fn layering_rules_are_as_far_from_the_walk_as_is_said() {
                 };
                 pictured(&base, alpha, overrides, Lobes::default(), samples)
             };
-            let truth = of(Layering::Walk, 512);
+            let truth = of(Layering::Walk, 2048);
             let rules = [Layering::Gltf, Layering::Reciprocal, Layering::None, Layering::OpenPbr];
-            let [gltf, reciprocal, none, openpbr] = rules.map(|rule| apart(&of(rule, 64), &truth)[1]);
+            let [gltf, reciprocal, none, openpbr] = rules.map(|rule| apart(&of(rule, 256), &truth)[1]);
             println!("{name}, alpha {alpha}: gltf {gltf:+.4}, reciprocal {reciprocal:+.4}, none {none:+.4}");
             // With one colour and full weight the rules are the same.
             assert!((gltf - openpbr).abs() < 1e-3, "{gltf} {openpbr}");
-            // Half of the last digit that is quoted, and the noise of 64 samples.
-            for ((found, said), allowed) in [gltf, reciprocal, none].into_iter().zip(said).zip([3e-3, 3e-3, 1e-2]) {
+            // Half of the last digit that is quoted, and as much again for sines that differ between machines.
+            for ((found, said), allowed) in [gltf, reciprocal, none].into_iter().zip(said).zip([1e-3, 1e-3, 1e-2]) {
                 let said = said[column];
                 if (found - said).abs() > allowed {
                     wrong.push(format!("{name}, alpha {alpha}: {found:+.4} is not {said}"));
