@@ -113,10 +113,16 @@ fn glossy_balls_have_no_grey_rim() {
 #[test]
 fn dusty_silhouettes_are_no_brighter_than_their_samples() {
     let scene = gltf::load(&root().join("assets/dust.glb"), &gltf::Options::default()).unwrap();
-    for alpha in [0.4, 0.6, 1.0] {
+    // Of dust all over one pixel sticks out, where the rim light grazes a thin edge.
+    for (alpha, most) in [(0.4, 0.016), (0.6, 0.016), (1.0, 0.03)] {
         let (edits, size) = (changed(Some(alpha), None, Edits::default()), [320, 180]);
-        let [mean, flat, above] = off(&filtered(&scene, &edits, size), &sampled(&scene, &edits, size));
-        println!("alpha {alpha}: {mean:.5} {flat:.4} {above:.4}");
-        assert!(mean < 0.0019 && above < 0.02, "alpha {alpha}: {mean} {above}");
+        let expected = sampled(&scene, &edits, size);
+        let [mean, flat, above] = off(&filtered(&scene, &edits, size), &expected);
+        let mut greatest: Vec<f32> = expected.iter().map(|sampled| sampled.mean.max_element()).collect();
+        greatest.sort_by(f32::total_cmp);
+        // Of which one pixel in a thousand has more.
+        let bright = greatest[greatest.len() * 999 / 1000];
+        println!("alpha {alpha}: {mean:.5} {flat:.4} {above:.4} of {bright:.2}");
+        assert!(mean < 0.002 && above < most * bright, "alpha {alpha}: {mean} {above} of {bright}");
     }
 }
