@@ -47,6 +47,13 @@ struct PolygonsWalk {
     is_begun: bool,
 }
 
+// Where an edge of a light goes through the surface, if it does, and whether it ends above.
+struct PolygonsCut {
+    is_crossed: bool,
+    crossing: vec3f,
+    is_above: bool,
+}
+
 // What a light is to a receiver.
 struct PolygonsIntegrals {
     form_factors: LobesScalars,
@@ -78,13 +85,12 @@ fn polygons_walk(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f) -> Polyg
 // Under a normal map light has to come from above the surface too, not only from above the mapped normal's horizon: the outline is
 // cut at the surface (Sutherland and Hodgman 1974) before it is walked along.
 fn polygons_walk_above(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f, is_last: bool) -> PolygonsWalk {
-    let start = dot(receiver.up, walk.corner);
-    let end = dot(receiver.up, vertex);
+    let cut = polygons_cut(receiver, walk.corner, vertex);
     var next = walk;
-    if (start > 0.0) != (end > 0.0) {
-        next = polygons_walk_on(next, receiver, mix(walk.corner, vertex, start / (start - end)));
+    if cut.is_crossed {
+        next = polygons_walk_on(next, receiver, cut.crossing);
     }
-    if end > 0.0 {
+    if cut.is_above {
         next = polygons_walk_on(next, receiver, vertex);
     }
     if is_last && next.is_begun {
@@ -92,6 +98,12 @@ fn polygons_walk_above(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f, is
     }
     next.corner = vertex;
     return next;
+}
+
+fn polygons_cut(receiver: Receiver, corner: vec3f, vertex: vec3f) -> PolygonsCut {
+    let start = dot(receiver.up, corner);
+    let end = dot(receiver.up, vertex);
+    return PolygonsCut((start > 0.0) != (end > 0.0), mix(corner, vertex, start / (start - end)), end > 0.0);
 }
 
 // Begins where nothing has begun.

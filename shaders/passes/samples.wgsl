@@ -49,13 +49,12 @@ fn samples_walk(walk: SamplesWalk, m_inv: mat3x3f, vertex: vec3f) -> SamplesWalk
 
 // As polygons_walk_above cuts outlines.
 fn samples_walk_above(walk: SamplesWalk, receiver: Receiver, m_inv: mat3x3f, vertex: vec3f, is_last: bool) -> SamplesWalk {
-    let start = dot(receiver.up, walk.corner);
-    let end = dot(receiver.up, vertex);
+    let cut = polygons_cut(receiver, walk.corner, vertex);
     var next = walk;
-    if (start > 0.0) != (end > 0.0) {
-        next = samples_walk_on(next, m_inv, mix(walk.corner, vertex, start / (start - end)));
+    if cut.is_crossed {
+        next = samples_walk_on(next, m_inv, cut.crossing);
     }
-    if end > 0.0 {
+    if cut.is_above {
         next = samples_walk_on(next, m_inv, vertex);
     }
     if is_last && next.is_begun {
