@@ -74,6 +74,11 @@ fn ltc_next(outline: LtcOutline, corner: vec3<f32>) -> LtcOutline {
 
 // What the edge walked last adds to a lobe's sum over all contours of a polygon.
 fn ltc_edge(outline: LtcOutline, m_inv: mat3x3<f32>) -> f32 {
+    return ltc_edge_vector(outline, m_inv).z;
+}
+
+// The same as a vector in the lobe's space, which has the sum as its z: of it, ltc_vector makes the light's mean direction there.
+fn ltc_edge_vector(outline: LtcOutline, m_inv: mat3x3<f32>) -> vec3<f32> {
     let a = m_inv[0].x;
     let c = m_inv[1].y;
     let b = m_inv[2].x;
@@ -81,12 +86,7 @@ fn ltc_edge(outline: LtcOutline, m_inv: mat3x3<f32>) -> f32 {
     let normal = vec3(c * outline.normal.x, a * outline.normal.y, c * (a * outline.normal.z - b * outline.normal.x));
     let p = vec3(a * outline.p.x + b * outline.p.z, c * outline.p.y, outline.p.z);
     let q = vec3(a * outline.q.x + b * outline.q.z, c * outline.q.y, outline.q.z);
-    return normal.z * ltc_arc(normal, outline.sine, dot(p, q));
-}
-
-// The same for the diffuse lobe as a vector: ltc_vector turns the sum into the light's mean direction.
-fn ltc_edge_vector(outline: LtcOutline) -> vec3<f32> {
-    return outline.normal * ltc_arc(outline.normal, outline.sine, dot(outline.p, outline.q));
+    return normal * ltc_arc(normal, outline.sine, dot(p, q));
 }
 
 // The angle along the horizon from where the contours left to where they came back, which closes them, as a complex number's
@@ -104,7 +104,7 @@ fn ltc_form_factor(sum: f32, turn: vec2<f32>, m_inv: mat3x3<f32>, side: f32) -> 
     return select(0.0, clamp(share, 0.0, 1.0), m_inv[0].x * m_inv[1].y > 0.0);
 }
 
-// The integral of the directions in which a light is seen above the horizon, over pi: its z is the diffuse form factor.
+// The integral of the directions in which a light is seen above the horizon, over pi, in a lobe's space: its z is the form factor.
 fn ltc_vector(sum: vec3<f32>, turn: vec2<f32>, side: f32) -> vec3<f32> {
     let closing = vec3(0.0, 0.0, abs(side) * ltc_angle(abs(turn.y), turn.x));
     return (side * sum + closing) / (2.0 * LTC_PI);

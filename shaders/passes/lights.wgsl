@@ -61,11 +61,14 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
     while index < end {
         let integrals = polygons_integrals(receiver, polygons_lights[index], quads);
         var form_factors = integrals.form_factors;
+        var factors = patterns_seen(receiver, index, integrals.directions);
         if VARIANT_PRIOR_SHEEN {
-            form_factors.sheen = points_sheen(receiver, index, form_factors.diffuse);
+            let sum = points_sheen(receiver, index, form_factors.diffuse);
+            form_factors.sheen = sum.form_factor;
+            factors.sheen = sum.factor;
         }
         let radiance = polygons_lights[index].radiance;
-        incident = lights_add(receiver, incident, index, radiance, form_factors, integrals.mean_cosine);
+        incident = lights_add(receiver, incident, index, radiance, form_factors, factors, integrals.mean_cosine);
         index = lights_next(receiver, index + 1u, end);
     }
     return incident;
@@ -87,19 +90,20 @@ fn lights_next(receiver: Receiver, first: u32, end: u32) -> u32 {
     return index;
 }
 
-// `light` counts polygons first and then lights without extent.
+// `light` counts polygons first and then lights without extent; `factors` are those of its radiance.
 fn lights_add(
-    receiver: Receiver, before: LobesColors, light: u32, radiance: vec3f, form_factors: LobesScalars, mean_cosine: f32,
+    receiver: Receiver, before: LobesColors, light: u32, radiance: vec3f, form_factors: LobesScalars, factors: LobesColors,
+    mean_cosine: f32,
 ) -> LobesColors {
     let base_weight = receiver_base_weight(receiver, mean_cosine);
     if VARIANT_SHADOWED {
-        picks_offer(receiver, light, radiance, base_weight, form_factors);
+        picks_offer(receiver, light, radiance, base_weight, form_factors, factors);
     }
     let base = radiance * base_weight;
     var incident = before;
-    incident.diffuse += base * form_factors.diffuse;
-    incident.specular += base * form_factors.specular;
-    incident.sheen += radiance * form_factors.sheen;
+    incident.diffuse += factors.diffuse * base * form_factors.diffuse;
+    incident.specular += factors.specular * base * form_factors.specular;
+    incident.sheen += factors.sheen * radiance * form_factors.sheen;
     return incident;
 }
 
@@ -110,7 +114,7 @@ fn lights_add_punctual(receiver: Receiver, incident: LobesColors, index: u32) ->
         densities = lights_densities(receiver, arriving.wo);
     }
     let light = lights_counts.polygons + index;
-    return lights_add(receiver, incident, light, arriving.irradiance, densities, max(arriving.wo.z, 0.0));
+    return lights_add(receiver, incident, light, arriving.irradiance, densities, PATTERNS_PLAIN, max(arriving.wo.z, 0.0));
 }
 
 // What a light without extent sends to a point.

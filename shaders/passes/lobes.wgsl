@@ -19,6 +19,13 @@ struct LobesScalars {
     sheen: f32,
 }
 
+// A vector for each lobe, in the space where it is a cosine: its sum along an outline, the mean direction of a light.
+struct LobesVectors {
+    diffuse: vec3f,
+    specular: vec3f,
+    sheen: vec3f,
+}
+
 // A colour for each lobe: the light that falls into it.
 struct LobesColors {
     diffuse: vec3f,

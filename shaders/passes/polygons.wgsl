@@ -17,6 +17,9 @@ struct PolygonsLight {
     // Its convex parts, as outlines of polygons_vertices.
     first_part_vertex: u32,
     end_part_vertex: u32,
+    // In patterns_sheets, else PATTERNS_NONE; and how many of its texels are on the polygon.
+    pattern: u32,
+    pattern_texels: f32,
 }
 
 @group(0) @binding(6) var<storage, read> polygons_lights: array<PolygonsLight>;
@@ -37,10 +40,8 @@ struct PolygonsTurns {
 // On the way round a light.
 struct PolygonsWalk {
     outline: LtcOutline,
-    sums: LobesScalars,
+    sums: LobesVectors,
     turns: PolygonsTurns,
-    // The diffuse lobe's sum as a vector.
-    vector: vec3f,
     // The light's vertex reached, and the contour's first that is above the surface, where there has been one.
     corner: vec3f,
     first: vec3f,
@@ -57,6 +58,8 @@ struct PolygonsCut {
 // What a light is to a receiver.
 struct PolygonsIntegrals {
     form_factors: LobesScalars,
+    // Of any length.
+    directions: LobesVectors,
     // Of the light's directions, weighted by the cosine.
     mean_cosine: f32,
 }
@@ -67,17 +70,14 @@ fn polygons_walk(walk: PolygonsWalk, receiver: Receiver, vertex: vec3f) -> Polyg
     next.outline = outline;
     next.corner = vertex;
     next.is_begun = true;
-    next.sums.diffuse += ltc_edge(outline, LOBES_DIFFUSE);
+    next.sums.diffuse += ltc_edge_vector(outline, LOBES_DIFFUSE);
     next.turns.isotropic = ltc_turn(walk.turns.isotropic, outline, LOBES_DIFFUSE);
     if VARIANT_SPECULAR {
-        next.sums.specular += ltc_edge(outline, receiver.lobes.specular.m_inv);
+        next.sums.specular += ltc_edge_vector(outline, receiver.lobes.specular.m_inv);
         next.turns.specular = ltc_turn(walk.turns.specular, outline, receiver.lobes.specular.m_inv);
     }
     if VARIANT_SHEEN && !VARIANT_PRIOR_SHEEN {
-        next.sums.sheen += ltc_edge(outline, receiver.lobes.sheen.m_inv);
-    }
-    if VARIANT_RECIPROCAL {
-        next.vector += ltc_edge_vector(outline);
+        next.sums.sheen += ltc_edge_vector(outline, receiver.lobes.sheen.m_inv);
     }
     return next;
 }
@@ -137,10 +137,14 @@ fn polygons_integrals(receiver: Receiver, light: PolygonsLight, is_quad: bool) -
     let walk = polygons_walk_around(receiver, light, is_quad);
     let turns = walk.turns;
     let lobes = receiver.lobes;
-    integrals.form_factors.diffuse = ltc_form_factor(walk.sums.diffuse, turns.isotropic, LOBES_DIFFUSE, side);
-    integrals.form_factors.specular = ltc_form_factor(walk.sums.specular, turns.specular, lobes.specular.m_inv, side);
-    integrals.form_factors.sheen = ltc_form_factor(walk.sums.sheen, turns.isotropic, lobes.sheen.m_inv, side);
-    integrals.mean_cosine = polygons_mean_cosine(ltc_vector(walk.vector, turns.isotropic, side));
+    let sums = walk.sums;
+    integrals.form_factors.diffuse = ltc_form_factor(sums.diffuse.z, turns.isotropic, LOBES_DIFFUSE, side);
+    integrals.form_factors.specular = ltc_form_factor(sums.specular.z, turns.specular, lobes.specular.m_inv, side);
+    integrals.form_factors.sheen = ltc_form_factor(sums.sheen.z, turns.isotropic, lobes.sheen.m_inv, side);
+    integrals.directions.diffuse = ltc_vector(sums.diffuse, turns.isotropic, side);
+    integrals.directions.specular = ltc_vector(sums.specular, turns.specular, side);
+    integrals.directions.sheen = ltc_vector(sums.sheen, turns.isotropic, side);
+    integrals.mean_cosine = polygons_mean_cosine(integrals.directions.diffuse);
     return integrals;
 }
 

@@ -3,6 +3,7 @@
 // Subtracted from the closed form, it leaves what is seen, unbiased: L = A - mean (1 - V) g / p, with V whether the ray gets through, g all that
 // the lobes scatter of the light's radiance at the point, and p the density by which it was drawn. That is the mixture of the lobes' own
 // densities over the polygon, each by the luminance that it brings, so that the luminance of g / p is the same at every point.
+// Of a textured light, V carries the pattern at the point, and 1 becomes what the closed form has of it in each lobe.
 
 // From where rays start.
 struct ShadowsOrigin {
@@ -49,6 +50,8 @@ struct ShadowsRay {
     light: u32,
     // What is blocked where it is stopped.
     radiance: vec3f,
+    // What is not where it gets through: of textured lights as much as is there, which may be more.
+    arriving: vec3f,
 }
 
 // All rays are made before the first is followed: what they are made of need not be kept at hand meanwhile.
@@ -68,7 +71,12 @@ fn shadows_blocked(receiver: Receiver, origin: ShadowsOrigin) -> vec3f {
     var blocked = vec3f(0.0);
     for (var index = 0u; index < count; index++) {
         let ray = shadows_rays[index];
-        blocked += ray.radiance * (1.0 - rays_passing(ray.start, ray.direction, ray.distance, ray.light));
+        let passing = rays_passing(ray.start, ray.direction, ray.distance, ray.light);
+        if VARIANT_PATTERNS {
+            blocked += ray.radiance - passing * ray.arriving;
+        } else {
+            blocked += ray.radiance * (1.0 - passing);
+        }
     }
     return blocked;
 }
@@ -78,14 +86,15 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept
     let numbers = randoms_three(start, receiver.sample);
     let radiance = polygons_lights[pick.light].radiance;
     let light = polygons_lights[pick.light].light;
-    let whole = picks_per_form_factor(receiver, radiance, pick.base_weight);
+    let factors = picks_factors(pick);
+    let whole = picks_per_form_factor(receiver, radiance, factors, pick.base_weight);
     // The lobe by what it brings.
     let at = numbers.x * picks_worth(pick.worths);
     let is_sheen = at >= pick.worths.diffuse + pick.worths.specular;
     if VARIANT_PRIOR_SHEEN && is_sheen {
-        let way = points_picked(receiver, pick.light, start);
-        let blocked = pick.total / whole.sheen * radiance * receiver.colors.sheen;
-        return shadows_ray(receiver, origin, filters_normalize(way), length(way), light, blocked);
+        let point = points_picked(receiver, pick.light, start);
+        let blocked = pick.total / whole.sheen * point.factor * radiance * receiver.colors.sheen;
+        return shadows_ray(receiver, origin, filters_normalize(point.way), length(point.way), light, blocked, blocked);
     }
     var m_inv = LOBES_DIFFUSE;
     var form_factor = pick.worths.diffuse / whole.diffuse;
@@ -102,38 +111,47 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept
     if VARIANT_PRIOR_SHEEN {
         densities.sheen = 0.0;
     }
-    let scattered = shadows_scattered(receiver, densities, radiance, pick.base_weight);
     let density = whole.diffuse * densities.diffuse + whole.specular * densities.specular + whole.sheen * densities.sheen;
     // Nothing where no point was found.
-    let blocked = select(vec3f(0.0), pick.total / density * scattered, density > 0.0);
+    let share = select(0.0, pick.total / density, density > 0.0);
+    let blocked = share * shadows_scattered(receiver, densities, radiance, factors, pick.base_weight);
+    var arriving = blocked;
+    if VARIANT_PATTERNS && polygons_lights[pick.light].pattern != PATTERNS_NONE {
+        let even = share * shadows_scattered(receiver, densities, radiance, PATTERNS_PLAIN, pick.base_weight);
+        arriving = even * patterns_factor(receiver, polygons_lights[pick.light].pattern, wo);
+    }
     let direction = wo * receiver.local_from_world;
     let normal = polygons_lights[pick.light].normal;
     let to_vertex = polygons_vertices[polygons_lights[pick.light].first_vertex].xyz - receiver.p_world;
-    return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked);
+    return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked, arriving);
 }
 
 fn shadows_to_punctual(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {
     let arriving = lights_arriving(receiver, lights_punctual[pick.light - lights_counts.polygons]);
     let densities = lights_densities(receiver, arriving.wo);
-    let scattered = shadows_scattered(receiver, densities, arriving.irradiance, pick.base_weight);
+    let scattered = shadows_scattered(receiver, densities, arriving.irradiance, PATTERNS_PLAIN, pick.base_weight);
     let blocked = pick.total / picks_worth(pick.worths) * scattered;
-    return shadows_ray(receiver, origin, arriving.wo * receiver.local_from_world, arriving.distance, SHADOWS_NO_EMITTER, blocked);
+    let direction = arriving.wo * receiver.local_from_world;
+    return shadows_ray(receiver, origin, direction, arriving.distance, SHADOWS_NO_EMITTER, blocked, blocked);
 }
 
-// What the lobes scatter of light of this radiance.
-fn shadows_scattered(receiver: Receiver, densities: LobesScalars, radiance: vec3f, base_weight: f32) -> vec3f {
-    let base = receiver.colors.diffuse * densities.diffuse + receiver.colors.specular * densities.specular;
-    return radiance * (base_weight * base + receiver.colors.sheen * densities.sheen);
+// What the lobes scatter of light of this radiance, which has a factor in each.
+fn shadows_scattered(
+    receiver: Receiver, densities: LobesScalars, radiance: vec3f, factors: LobesColors, base_weight: f32,
+) -> vec3f {
+    let diffuse = factors.diffuse * receiver.colors.diffuse * densities.diffuse;
+    let specular = factors.specular * receiver.colors.specular * densities.specular;
+    return radiance * (base_weight * (diffuse + specular) + factors.sheen * receiver.colors.sheen * densities.sheen);
 }
 
 // From a point to a light at a distance. What comes from below the flat triangle is not stopped by that itself, unless the point was
 // moved off it.
 fn shadows_ray(
-    receiver: Receiver, origin: ShadowsOrigin, direction: vec3f, distance: f32, light: u32, radiance: vec3f,
+    receiver: Receiver, origin: ShadowsOrigin, direction: vec3f, distance: f32, light: u32, radiance: vec3f, arriving: vec3f,
 ) -> ShadowsRay {
     let is_below = dot(direction, origin.normal) < 0.0 && origin.lift <= origin.apart;
     let start = origin.p_world + select(origin.apart, -origin.apart, is_below) * origin.normal;
     let way = receiver.p_world + distance * direction - start;
     let far = length(way);
-    return ShadowsRay(start, far, way / far, light, radiance);
+    return ShadowsRay(start, far, way / far, light, radiance, arriving);
 }

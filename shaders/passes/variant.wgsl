@@ -18,6 +18,8 @@ override VARIANT_NORMAL_MAP: bool = (VARIANT_TEXTURES & 4u) != 0u;
 override VARIANT_QUADS: bool = true;
 override VARIANT_POLYGONS: bool = true;
 override VARIANT_PUNCTUAL: bool = true;
+// Some polygons are textured.
+override VARIANT_PATTERNS: bool = true;
 
 // The specular lobe may be narrower than what normals vary over a pixel, which is then shaded sample by sample.
 override VARIANT_SHARP: bool = true;

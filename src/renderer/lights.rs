@@ -5,6 +5,7 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3, Vec4};
 
+use super::patterns::{GpuSheet, Patterns, Shown};
 use crate::math::quadrature::gauss_legendre;
 use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 
@@ -24,7 +25,8 @@ pub(super) struct GpuPolygon {
     light: u32,
     first_part_vertex: u32,
     end_part_vertex: u32,
-    padding: [u32; 2],
+    pattern: u32,
+    pattern_texels: f32,
 }
 
 /// `LightsPunctual` of `lights.wgsl`.
@@ -50,7 +52,7 @@ pub(super) struct GpuCounts {
     punctual: u32,
 }
 
-/// Points on each polygon at which sheens without a closed form are summed; there are more where it has many triangles.
+/// Points on each polygon, all its pieces together, at which sheens without a closed form are summed; there are more where it has many triangles.
 const POINTS: f64 = 128.0;
 
 /// Which kinds of lights there are.
@@ -61,12 +63,8 @@ pub(super) struct LightKinds {
     /// Any other polygons.
     pub polygons: bool,
     pub punctual: bool,
-}
-
-impl GpuCounts {
-    pub fn kinds(self) -> LightKinds {
-        LightKinds { quads: self.quads > 0, polygons: self.polygons > self.quads, punctual: self.punctual > 0 }
-    }
+    /// Polygons with patterns.
+    pub patterns: bool,
 }
 
 fn is_quad(polygon: &Polygon) -> bool {
@@ -83,36 +81,50 @@ pub(super) struct GpuLights {
     pub punctual: Vec<GpuPunctual>,
     /// Points on the polygons, with the areas that they stand for as w; empty where they are not needed.
     pub points: Vec<Vec4>,
+    /// The polygons' patterns.
+    pub sheets: Vec<GpuSheet>,
 }
 
 impl GpuLights {
-    /// The lights of a scene; with points on them where `sampled`.
-    pub fn new(drawn: &Drawn, sampled: bool) -> Self {
+    /// The lights of a scene; with points on them where `sampled`. `patterns` take what they show.
+    pub fn new(drawn: &Drawn, sampled: bool, patterns: &mut Patterns) -> Self {
         let (mut polygons, mut vertices, mut points) = (Vec::new(), Vec::new(), Vec::new());
+        let mut sheets = Vec::new();
+        // Black lights contribute nothing and are left out.
+        let lit = || drawn.lights.iter().enumerate().filter(|(_, light)| light.radiance != Vec3::ZERO);
+        let all = lit().flat_map(|(index, light)| light.polygons.iter().map(move |polygon| (index, polygon)));
+        let pieces = all.flat_map(|(index, polygon)| {
+            patterns.shown(polygon, &mut sheets).into_iter().map(move |shown| (index, shown))
+        });
+        let pieces: Vec<(usize, Shown)> = pieces.collect();
         let mut add = |quads: bool| {
-            // Black lights contribute nothing and are left out.
-            for (index, light) in drawn.lights.iter().enumerate().filter(|(_, light)| light.radiance != Vec3::ZERO) {
-                for polygon in light.polygons.iter().filter(|polygon| is_quad(polygon) == quads) {
-                    let first_point = points.len() as u32;
-                    if sampled {
-                        points.extend(spread(polygon));
-                    }
-                    let of_points = first_point..points.len() as u32;
-                    let polygon = gpu_polygon(light, polygon, &mut vertices, of_points);
-                    polygons.push(GpuPolygon { light: index as u32, ..polygon });
+            for (index, shown) in pieces.iter().filter(|(_, shown)| is_quad(&shown.polygon) == quads) {
+                let first_point = points.len() as u32;
+                if sampled {
+                    points.extend(spread(&shown.polygon, POINTS * shown.share));
                 }
+                let of_points = first_point..points.len() as u32;
+                let polygon = gpu_polygon(&drawn.lights[*index], shown, &mut vertices, of_points);
+                polygons.push(GpuPolygon { light: *index as u32, ..polygon });
             }
             polygons.len() as u32
         };
         let (quads, all) = (add(true), add(false));
         let punctual: Vec<GpuPunctual> = drawn.scene.punctual_lights.iter().map(one_punctual).collect();
         let counts = GpuCounts { quads, polygons: all, punctual: punctual.len() as u32 };
-        Self { counts, polygons, vertices, punctual, points }
+        Self { counts, polygons, vertices, punctual, points, sheets }
+    }
+
+    pub fn kinds(&self) -> LightKinds {
+        let GpuCounts { quads, polygons, punctual } = self.counts;
+        let patterns = !self.sheets.is_empty();
+        LightKinds { quads: quads > 0, polygons: polygons > quads, punctual: punctual > 0, patterns }
     }
 }
 
 /// Adds the vertices of the polygon's outlines.
-fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, points: Range<u32>) -> GpuPolygon {
+fn gpu_polygon(light: &Light, shown: &Shown, vertices: &mut Vec<Vec4>, points: Range<u32>) -> GpuPolygon {
+    let polygon = &shown.polygon;
     let first_vertex = vertices.len() as u32;
     polygon.contours.iter().for_each(|contour| add_outline(contour, vertices));
     let end_vertex = vertices.len() as u32;
@@ -128,7 +140,7 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, point
     };
     let (center, radius) = sphere(polygon);
     GpuPolygon {
-        radiance: light.radiance,
+        radiance: light.radiance * shown.factor,
         two_sided: light.two_sided.into(),
         normal: polygon.normal,
         first_vertex,
@@ -140,7 +152,8 @@ fn gpu_polygon(light: &Light, polygon: &Polygon, vertices: &mut Vec<Vec4>, point
         light: 0,
         first_part_vertex: parts.start,
         end_part_vertex: parts.end,
-        padding: [0; 2],
+        pattern: shown.pattern,
+        pattern_texels: shown.texels,
     }
 }
 
@@ -165,13 +178,13 @@ fn sphere(polygon: &Polygon) -> (Vec3, f32) {
     (center, radius as f32 + 1e-6 * size)
 }
 
-/// Points on a polygon with the areas that they stand for, [`POINTS`] of them on a rectangle. Each triangle gets a
+/// Points on a polygon with the areas that they stand for, so many of them on a rectangle. Each triangle gets a
 /// product of two Gauss-Legendre rules, one along the way from a corner to the opposite side and one across it, with as
 /// many nodes as its share of the area calls for.
 ///
 /// Functions that are smooth over the light are integrated far better than by as many points at random or in a
 /// low-discrepancy sequence.
-fn spread(polygon: &Polygon) -> Vec<Vec4> {
+fn spread(polygon: &Polygon, count: f64) -> Vec<Vec4> {
     let parts = polygon.convex_parts();
     let fan = |part: &Vec<DVec3>| -> Vec<[DVec3; 3]> {
         part.windows(2).skip(1).map(|pair| [part[0], pair[0], pair[1]]).collect()
@@ -184,7 +197,7 @@ fn spread(polygon: &Polygon) -> Vec<Vec4> {
         let [a, b, c] = *triangle;
         let twice_area = twice_area(triangle);
         // Reduced by a rounding error, so that each half of a rectangle gets half of the points and not a row more.
-        let side = ((POINTS * twice_area / whole).sqrt() - 1e-6).ceil().max(1.0);
+        let side = ((count * twice_area / whole).sqrt() - 1e-6).ceil().max(1.0);
         let nodes = gauss_legendre(side as usize, 0.0, 1.0);
         for &(along, along_weight) in &nodes {
             for &(across, across_weight) in &nodes {
@@ -241,7 +254,9 @@ mod tests {
             end_point,
             light,
             first_part_vertex,
-            end_part_vertex
+            end_part_vertex,
+            pattern,
+            pattern_texels
         });
         let punctual = members!(GpuPunctual {
             intensity,
@@ -269,7 +284,7 @@ mod tests {
         let place = |[x, y]: [f32; 2]| Vec3::new(x + 3.0, 1.0, -y);
         let outer: Vec<Vec3> = square(2.0).into_iter().map(place).collect();
         let hole: Vec<Vec3> = square(1.0).into_iter().rev().map(place).collect();
-        let points = spread(&Polygon { contours: vec![outer.clone(), hole], normal: Vec3::Y, pattern: None });
+        let points = spread(&Polygon { contours: vec![outer.clone(), hole], normal: Vec3::Y, pattern: None }, POINTS);
         assert!((128..256).contains(&points.len()), "{}", points.len());
         let flat: Vec<[f32; 2]> = points.iter().map(|point| [point.x - 3.0, point.z]).collect();
         assert!(points.iter().all(|point| point.y == 1.0));
@@ -286,10 +301,11 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
         }
-        assert_eq!(spread(&Polygon { contours: vec![outer], normal: Vec3::Y, pattern: None }).len(), 128);
+        let square = Polygon { contours: vec![outer], normal: Vec3::Y, pattern: None };
+        assert_eq!([POINTS, POINTS / 4.0].map(|count| spread(&square, count).len()), [128, 32]);
         let narrow =
             Polygon { contours: vec![vec![Vec3::X, 2.0 * Vec3::X, 3.0 * Vec3::X]], normal: Vec3::Z, pattern: None };
-        assert!(spread(&narrow).iter().all(|point| point.is_finite()));
+        assert!(spread(&narrow, POINTS).iter().all(|point| point.is_finite()));
     }
 
     #[test]

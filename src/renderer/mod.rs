@@ -21,6 +21,8 @@ mod materials;
 mod meter;
 mod offscreen;
 pub mod paint_order;
+mod patterns;
+mod pieces;
 mod pipelines;
 mod prior_sheens;
 mod readback;

@@ -82,7 +82,7 @@ impl Pipelines {
     }
 
     /// The values of the shader's `override` constants.
-    fn constants(&self, variant: &Variant, stage: Stage, samples: u32) -> [(&'static str, f64); 18] {
+    fn constants(&self, variant: &Variant, stage: Stage, samples: u32) -> [(&'static str, f64); 19] {
         let Variant { look, lights, .. } = *variant;
         let number = |on: bool| f64::from(u8::from(on));
         let (shadowed, filtered, opacities) = match stage {
@@ -101,6 +101,7 @@ impl Pipelines {
             ("VARIANT_QUADS", number(lights.quads)),
             ("VARIANT_POLYGONS", number(lights.polygons)),
             ("VARIANT_PUNCTUAL", number(lights.punctual)),
+            ("VARIANT_PATTERNS", number(lights.patterns)),
             ("VARIANT_SHADOWED", number(shadowed)),
             ("VARIANT_OPACITIES", number(opacities)),
             ("VARIANT_SHARP", number(look.sharp && samples > 1)),

@@ -10,6 +10,7 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 use super::draws::{Batch, Draws};
 use super::lights::GpuLights;
 use super::materials::{GpuMaterial, Look, factors};
+use super::patterns::Patterns;
 use super::tracked_buffer::TrackedBuffer;
 use super::{Gpu, RenderError, textures};
 use crate::scene::{Bounds, Drawn, Mesh};
@@ -36,6 +37,10 @@ pub(super) struct Resident {
     pub light_vertices: TrackedBuffer,
     pub punctual: TrackedBuffer,
     pub light_points: TrackedBuffer,
+    pub sheets: TrackedBuffer,
+    /// They are many, and seldom change.
+    pub pattern_texels: TrackedBuffer,
+    patterns: Patterns,
     /// What stands in for attributes that a mesh lacks: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
@@ -49,7 +54,8 @@ impl Resident {
         let scene = drawn.scene;
         let Gpu { device, queue, .. } = gpu;
         let mesh_bounds: Vec<Bounds> = scene.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
-        let contents = Contents::new(drawn, &mesh_bounds);
+        let mut patterns = Patterns::new(drawn);
+        let contents = Contents::new(drawn, &mesh_bounds, &mut patterns);
         let stored = |(name, bytes)| storage(device, name, bytes);
         let material_layout = textures::bind_group_layout(device);
         let material_groups = textures::bind_groups((device, queue), &material_layout, scene);
@@ -60,7 +66,7 @@ impl Resident {
             contents: bytemuck::cast_slice(&constants),
             usage: BufferUsages::VERTEX,
         };
-        let [instances, materials, polygons, light_vertices, punctual, light_points] = contents.stored();
+        let [instances, materials, polygons, light_vertices, punctual, light_points, sheets] = contents.stored();
         Ok(Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
             instances: stored(instances)?,
@@ -70,6 +76,9 @@ impl Resident {
             light_vertices: stored(light_vertices)?,
             punctual: stored(punctual)?,
             light_points: stored(light_points)?,
+            sheets: stored(sheets)?,
+            pattern_texels: stored((PATTERNS, bytemuck::cast_slice(patterns.texels())))?,
+            patterns,
             constants: device.create_buffer_init(&constants),
             material_layout,
             material_groups,
@@ -81,7 +90,8 @@ impl Resident {
     /// Uploads the present values of materials, lights and instances. Returns whether buffers were made anew, which
     /// happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
-        let contents = Contents::new(drawn, &self.mesh_bounds);
+        let texels = self.patterns.texels().len();
+        let contents = Contents::new(drawn, &self.mesh_bounds, &mut self.patterns);
         self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));
         let mut grown = false;
         let buffers = [
@@ -91,14 +101,14 @@ impl Resident {
             &mut self.light_vertices,
             &mut self.punctual,
             &mut self.light_points,
+            &mut self.sheets,
         ];
-        for (buffer, (name, bytes)) in buffers.into_iter().zip(contents.stored()) {
-            if bytes.len() as u64 <= buffer.size() {
-                buffer.write(&gpu.queue, bytes);
-            } else {
-                *buffer = storage(&gpu.device, name, bytes)?;
-                grown = true;
-            }
+        for (buffer, stored) in buffers.into_iter().zip(contents.stored()) {
+            grown |= written(gpu, buffer, stored)?;
+        }
+        if self.patterns.texels().len() > texels {
+            let texels = bytemuck::cast_slice(self.patterns.texels());
+            grown |= written(gpu, &mut self.pattern_texels, (PATTERNS, texels))?;
         }
         self.draws = contents.draws;
         Ok(grown)
@@ -111,6 +121,8 @@ impl Resident {
     }
 }
 
+const PATTERNS: &str = "the lights' patterns";
+
 /// What the buffers hold.
 struct Contents {
     draws: Draws,
@@ -119,19 +131,19 @@ struct Contents {
 }
 
 impl Contents {
-    fn new(drawn: &Drawn, mesh_bounds: &[Bounds]) -> Self {
+    fn new(drawn: &Drawn, mesh_bounds: &[Bounds], patterns: &mut Patterns) -> Self {
         let sampled = drawn.materials.iter().any(|material| Look::new(material).sheen_model != 0);
-        let lights = GpuLights::new(drawn, sampled);
+        let lights = GpuLights::new(drawn, sampled, patterns);
         Self {
-            draws: Draws::new(drawn, mesh_bounds, lights.counts.kinds()),
+            draws: Draws::new(drawn, mesh_bounds, lights.kinds()),
             materials: drawn.materials.iter().map(factors).collect(),
             lights,
         }
     }
 
     /// The contents of the storage buffers, with their names: instances, materials, polygons, their vertices, lights
-    /// without extent, points on the polygons.
-    fn stored(&self) -> [(&'static str, &[u8]); 6] {
+    /// without extent, points on the polygons, where their patterns lie.
+    fn stored(&self) -> [(&'static str, &[u8]); 7] {
         [
             ("the instances", bytemuck::cast_slice(&self.draws.instances)),
             ("the materials", bytemuck::cast_slice(&self.materials)),
@@ -139,6 +151,7 @@ impl Contents {
             ("the lights' outlines", bytemuck::cast_slice(&self.lights.vertices)),
             ("the lights without extent", bytemuck::cast_slice(&self.lights.punctual)),
             ("the points on the lights", bytemuck::cast_slice(&self.lights.points)),
+            ("the places of the lights' patterns", bytemuck::cast_slice(&self.lights.sheets)),
         ]
     }
 }
@@ -173,6 +186,17 @@ fn buffer(
 ) -> Result<Buffer, RenderError> {
     let contents = bindable(name, contents, limit)?;
     Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(name), contents, usage }))
+}
+
+/// Writes contents to a storage buffer; returns whether it was made anew, because they have grown.
+fn written(gpu: &Gpu, buffer: &mut TrackedBuffer, (name, bytes): (&str, &[u8])) -> Result<bool, RenderError> {
+    let has_room = bytes.len() as u64 <= buffer.size();
+    if has_room {
+        buffer.write(&gpu.queue, bytes);
+    } else {
+        *buffer = storage(&gpu.device, name, bytes)?;
+    }
+    Ok(!has_room)
 }
 
 /// A storage buffer with these contents.

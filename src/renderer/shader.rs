@@ -27,6 +27,7 @@ pub const SURFACES_WGSL: &str = concat!(
     include_str!("../../shaders/passes/receiver.wgsl"),
     // What of the lights arrives there, and which of them get a ray.
     include_str!("../../shaders/passes/polygons.wgsl"),
+    include_str!("../../shaders/passes/patterns.wgsl"),
     include_str!("../../shaders/passes/points.wgsl"),
     include_str!("../../shaders/passes/picks.wgsl"),
     include_str!("../../shaders/passes/lights.wgsl"),

@@ -309,6 +309,8 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
             entry(8, ShaderStages::FRAGMENT, storage),
             entry(9, ShaderStages::FRAGMENT, storage),
             entry(10, ShaderStages::FRAGMENT, texture(wgpu::TextureSampleType::Uint)),
+            entry(11, ShaderStages::FRAGMENT, storage),
+            entry(12, ShaderStages::FRAGMENT, storage),
         ],
     })
 }
@@ -335,6 +337,8 @@ fn bind_group(
             entry(8, resident.punctual.binding()),
             entry(9, resident.light_points.binding()),
             entry(10, wgpu::BindingResource::TextureView(albedos)),
+            entry(11, resident.sheets.binding()),
+            entry(12, resident.pattern_texels.binding()),
         ],
     })
 }

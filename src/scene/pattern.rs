@@ -1,3 +1,4 @@
+use std::ops::{Add, Mul, Sub};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -94,6 +95,21 @@ impl PatternGrid {
         areas
     }
 
+    /// What of a convex polygon of the plane lies in the cells from `low` on and before `high`, by column and row. What is beside
+    /// the image is in its outermost cells.
+    pub fn clipped(&self, part: &[DVec3], low: [u32; 2], high: [u32; 2]) -> Vec<DVec3> {
+        let mut kept = part.to_vec();
+        for axis in 0..2 {
+            if low[axis] > 0 {
+                kept = cut(&kept, |point| self.cells(point)[axis] - f64::from(low[axis]));
+            }
+            if high[axis] < self.size[axis] {
+                kept = cut(&kept, |point| f64::from(high[axis]) - self.cells(point)[axis]);
+            }
+        }
+        kept
+    }
+
     /// A point's place, where cells have sides of 1.
     pub(super) fn cells(&self, point: DVec3) -> DVec2 {
         let arm = point - self.origin;
@@ -119,20 +135,26 @@ fn stretch(flat: &[DVec2], axis: usize, count: u32) -> std::ops::Range<u32> {
 
 /// What of a convex outline lies in a row, or a column.
 fn between(flat: &[DVec2], axis: usize, index: u32) -> Vec<DVec2> {
-    let cut = |flat: &[DVec2], limit: f64, sign: f64| {
-        let mut kept = Vec::with_capacity(flat.len() + 1);
-        for (p, q) in flat.iter().zip(flat.iter().cycle().skip(1)) {
-            let [start, end] = [p, q].map(|at| sign * (at[axis] - limit));
-            if start >= 0.0 {
-                kept.push(*p);
-            }
-            if (start < 0.0) != (end < 0.0) {
-                kept.push(p.lerp(*q, start / (start - end)));
-            }
+    let above = cut(flat, |at| at[axis] - f64::from(index));
+    cut(&above, |at| f64::from(index) + 1.0 - at[axis])
+}
+
+/// The part of a convex outline with heights of 0 and more, which are linear.
+fn cut<P>(outline: &[P], height: impl Fn(P) -> f64) -> Vec<P>
+where
+    P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
+{
+    let mut kept = Vec::with_capacity(outline.len() + 1);
+    for (&p, &q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        let [start, end] = [p, q].map(&height);
+        if start >= 0.0 {
+            kept.push(p);
         }
-        kept
-    };
-    cut(&cut(flat, index.into(), 1.0), f64::from(index) + 1.0, -1.0)
+        if (start < 0.0) != (end < 0.0) {
+            kept.push(p + (q - p) * (start / (start - end)));
+        }
+    }
+    kept
 }
 
 fn area(flat: &[DVec2]) -> f64 {

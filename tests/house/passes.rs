@@ -9,7 +9,7 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 21] = [
+pub const FLOORS: [&[&str]; 22] = [
     // What people copy.
     &["ltc", "ltc_sample", "sheen", "ggx"],
     // What a pipeline is made for.
@@ -32,6 +32,8 @@ pub const FLOORS: [&[&str]; 21] = [
     &["passes/receiver"],
     // How much of each lobe a polygon light fills: in closed form,
     &["passes/polygons"],
+    // what the lobes see of its pattern,
+    &["passes/patterns"],
     // and by points on it.
     &["passes/points"],
     // Which lights get a ray.

@@ -1,9 +1,11 @@
 //! Scenes in which something stands in the way of light.
 
+use std::sync::Arc;
+
 use glam::{Affine2, Mat4, Vec2, Vec3, Vec4};
 use velour::scene::{
-    AlphaMode, Edits, Image, Layering, Material, MaterialEdits, Polygon, PunctualKind, PunctualLight, Sampler, Scene,
-    Sheen, Texture, TextureSlot, TextureUse,
+    AlphaMode, Edits, Image, Layering, Material, MaterialEdits, Pattern, PatternImage, Polygon, PunctualKind,
+    PunctualLight, Sampler, Scene, Sheen, Texture, TextureSlot, TextureUse,
 };
 
 use super::modelling::ball;
@@ -84,6 +86,7 @@ pub fn all() -> Vec<Case> {
         glossy(),
         panels(),
         punctual(),
+        stained_glass(),
     ]
 }
 
@@ -196,6 +199,24 @@ fn normals() -> Case {
     mapped(&mut scene, 0, [1.5, 1.5]);
     textured(&mut scene, 0, TextureSlot::Normal, 1, |_, _| [165, 90, 225, 255]);
     Case::new("normal map", scene)
+}
+
+/// A window of 8 by 5 panes of many colours, some dark, under which a ball stands, and a plain one on the other side.
+fn stained_glass() -> Case {
+    let mut lamp = window().placed(facing([-0.9, 1.2, -0.8], ORIGIN));
+    lamp.material.emission = Vec3::splat(2.0);
+    let mut scene = seen(vec![floor(cloth()), window(), lamp, round(cloth())]);
+    let pane = |at: u32| [at % 3, at * at % 4, at % 5 / 2].map(|step| step as f32);
+    let panes: Vec<Vec3> = (0..40).map(|at| pane(at).into()).collect();
+    let mean = panes.iter().sum::<Vec3>() / 40.0;
+    let image = PatternImage { size: [8, 5], texels: panes.into_iter().map(|pane| pane / mean).collect() };
+    let place = facing(WINDOW, ORIGIN);
+    scene.lights[0].polygons[0].pattern = Some(Pattern {
+        origin: place.transform_point3(Vec3::new(-0.5, -0.3, 0.0)),
+        axes: [Vec3::X, 0.6 * Vec3::Y].map(|axis| place.transform_vector3(axis)),
+        image: Arc::new(image),
+    });
+    Case::new("stained glass", scene)
 }
 
 fn reciprocal() -> Case {

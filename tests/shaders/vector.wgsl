@@ -18,7 +18,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var turn = LTC_LEVEL;
     for (var k = 0u; k < 3u; k++) {
         outline = ltc_next(outline, vertices[3u * id.x + k].xyz);
-        vector += ltc_edge_vector(outline);
+        vector += ltc_edge_vector(outline, identity);
         sum += ltc_edge(outline, identity);
         turn = ltc_turn(turn, outline, identity);
     }

@@ -1,0 +1,242 @@
+//! Patterns of textured lights as the shaders read them.
+
+use std::borrow::Cow;
+use std::iter::successors;
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
+
+use super::pieces::{Piece, pieces};
+use crate::scene::{Drawn, Pattern, PatternImage, Polygon};
+
+/// `PatternsSheet` of `patterns.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct GpuSheet {
+    origin: Vec3,
+    first_texel: u32,
+    row: Vec3,
+    columns: u32,
+    column: Vec3,
+    rows: u32,
+}
+
+/// A polygon that shines, or a piece of one that is textured.
+pub(super) struct Shown<'a> {
+    pub polygon: Cow<'a, Polygon>,
+    /// Of the light's radiance.
+    pub factor: Vec3,
+    /// `PolygonsLight::pattern` and `pattern_texels` of `polygons.wgsl`.
+    pub pattern: u32,
+    pub texels: f32,
+    /// Of the points on the polygon.
+    pub share: f64,
+}
+
+/// `PATTERNS_NONE` of `patterns.wgsl`.
+const NONE: u32 = u32::MAX;
+
+/// The most pieces of all textured polygons of a scene, each of which takes as long as a light.
+const PIECES: usize = 64;
+
+/// What the textured lights of a scene show, as often as it is drawn.
+pub(super) struct Patterns {
+    held: Vec<Held>,
+    texels: Vec<f32>,
+    /// The most pieces of each.
+    most: usize,
+}
+
+struct Held {
+    image: Arc<PatternImage>,
+    first_texel: u32,
+    pieces: Vec<Piece>,
+}
+
+impl Patterns {
+    /// Of a scene, still without any.
+    pub fn new(drawn: &Drawn) -> Self {
+        let polygons = drawn.scene.lights.iter().flat_map(|light| &light.polygons);
+        let count = polygons.filter(|polygon| polygon.pattern.is_some()).count();
+        Self { held: Vec::new(), texels: Vec::new(), most: (PIECES / count.max(1)).max(1) }
+    }
+
+    /// All texels of all levels, three numbers each.
+    pub fn texels(&self) -> &[f32] {
+        &self.texels
+    }
+
+    /// A polygon, or its pieces, of which those that are not even go by a sheet that is added to the others.
+    pub fn shown<'a>(&mut self, polygon: &'a Polygon, sheets: &mut Vec<GpuSheet>) -> Vec<Shown<'a>> {
+        let Some(pattern) = &polygon.pattern else {
+            let polygon = Cow::Borrowed(polygon);
+            return vec![Shown { polygon, factor: Vec3::ONE, pattern: NONE, texels: 0.0, share: 1.0 }];
+        };
+        let Held { first_texel, ref pieces, .. } = *self.of(polygon, pattern);
+        let ([row, column], [columns, rows]) = (pattern.axes, pattern.image.size);
+        let number = sheets.len() as u32;
+        let grid = pattern.grid(|point| point);
+        let outline: Vec<DVec3> = polygon.contours[0].iter().map(|vertex| vertex.as_dvec3()).collect();
+        let shown = |piece: &Piece| {
+            let polygon = if pieces.len() == 1 {
+                Cow::Borrowed(polygon)
+            } else {
+                let contour = grid.clipped(&outline, piece.low, piece.high);
+                let contours = vec![contour.into_iter().map(|vertex| vertex.as_vec3()).collect()];
+                Cow::Owned(Polygon { contours, normal: polygon.normal, pattern: None })
+            };
+            let share = 1.0 / pieces.len() as f64;
+            match piece.even {
+                Some(even) => Shown { polygon, factor: even.as_vec3(), pattern: NONE, texels: 0.0, share },
+                None => Shown { polygon, factor: Vec3::ONE, pattern: number, texels: piece.texels(), share },
+            }
+        };
+        let mut shown: Vec<Shown> = pieces.iter().map(shown).collect();
+        shown.retain(|shown| shown.factor != Vec3::ZERO && shown.polygon.contours[0].len() > 2);
+        if shown.iter().any(|shown| shown.pattern != NONE) {
+            sheets.push(GpuSheet { origin: pattern.origin, first_texel, row, columns, column, rows });
+        }
+        shown
+    }
+
+    /// What is held of a polygon's image, which is taken in where it is new.
+    fn of(&mut self, polygon: &Polygon, pattern: &Pattern) -> &Held {
+        let found = self.held.iter().position(|held| Arc::ptr_eq(&held.image, &pattern.image));
+        let index = found.unwrap_or_else(|| {
+            let parts = polygon.convex_parts();
+            let levels = levels(&parts, pattern);
+            // Others stay whole.
+            let is_convex = polygon.contours.len() == 1 && parts.len() == 1;
+            let pieces = pieces(&levels[0], pattern.image.size, if is_convex { self.most } else { 1 });
+            let first_texel = self.texels.len() as u32 / 3;
+            self.texels.extend(levels.iter().flatten().flat_map(|texel| texel.mean.as_vec3().to_array()));
+            self.held.push(Held { image: pattern.image.clone(), first_texel, pieces });
+            self.held.len() - 1
+        });
+        &self.held[index]
+    }
+}
+
+/// What a texel of a level shows.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Texel {
+    /// Over what of the polygon lies in it.
+    pub mean: DVec3,
+    /// Of that, square metres.
+    pub area: f64,
+}
+
+/// The sizes of an image's levels, down to a single texel.
+fn sizes(finest: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    successors(Some(finest), |size| (*size != [1, 1]).then(|| size.map(|count| count.div_ceil(2))))
+}
+
+/// An image and its mipmaps: means over the polygon of these convex parts alone, so that what is beside it does not
+/// darken its edges. Texels in which nothing of it lies have the mean of the coarser one around them.
+fn levels(parts: &[Vec<DVec3>], pattern: &Pattern) -> Vec<Vec<Texel>> {
+    let sizes: Vec<[u32; 2]> = sizes(pattern.image.size).collect();
+    let of = |value: &Vec3| Texel { mean: value.as_dvec3(), area: 0.0 };
+    let mut finest: Vec<Texel> = pattern.image.texels.iter().map(of).collect();
+    let grid = pattern.grid(|point| point);
+    for (cell, area) in parts.iter().flat_map(|part| grid.areas(part)) {
+        finest[cell].area += area;
+    }
+    let mut levels = vec![finest];
+    for pair in sizes.windows(2) {
+        let coarser = coarser(&levels[levels.len() - 1], [pair[0], pair[1]]);
+        levels.push(coarser);
+    }
+    for level in (1..levels.len()).rev() {
+        let (finer, coarser) = levels.split_at_mut(level);
+        let columns = [sizes[level - 1], sizes[level]].map(|[columns, _]| columns as usize);
+        for (at, texel) in finer[level - 1].iter_mut().enumerate().filter(|(_, texel)| texel.area == 0.0) {
+            let (column, row) = (at % columns[0], at / columns[0]);
+            texel.mean = coarser[0][row / 2 * columns[1] + column / 2].mean;
+        }
+    }
+    levels
+}
+
+/// The next level, given the sizes of both.
+fn coarser(finer: &[Texel], [[columns, rows], [wide, high]]: [[u32; 2]; 2]) -> Vec<Texel> {
+    let mut texels = vec![Texel::default(); (wide * high) as usize];
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let Texel { mean, area } = finer[(row * columns + column) as usize];
+        let sum = &mut texels[(row / 2 * wide + column / 2) as usize];
+        *sum = Texel { mean: sum.mean + area * mean, area: sum.area + area };
+    }
+    for texel in texels.iter_mut().filter(|texel| texel.area > 0.0) {
+        texel.mean /= texel.area;
+    }
+    texels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{differences, members};
+    use super::super::shader::SURFACES_WGSL;
+    use super::*;
+
+    #[test]
+    fn sheets_stand_as_the_shader_reads_them() {
+        let members = members!(GpuSheet { origin, first_texel, row, columns, column, rows });
+        assert_eq!(differences(SURFACES_WGSL, "PatternsSheet", size_of::<GpuSheet>(), members), [""; 0]);
+    }
+
+    /// An outline in the plane z = 0 before a 3 x 2 image of squares, which is black in the last column.
+    fn polygon(outline: &[[f32; 2]]) -> Polygon {
+        let contours = vec![outline.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect()];
+        let texels = [1.0, 3.0, 0.0, 5.0, 7.0, 0.0].map(Vec3::splat).to_vec();
+        let image = Arc::new(PatternImage { size: [3, 2], texels });
+        let axes = [3.0 * Vec3::X, 2.0 * Vec3::Y];
+        Polygon { contours, normal: Vec3::Z, pattern: Some(Pattern { origin: Vec3::ZERO, axes, image }) }
+    }
+
+    fn patterns(most: usize) -> Patterns {
+        Patterns { held: Vec::new(), texels: Vec::new(), most }
+    }
+
+    /// Of the triangle 1 lies in the first cell, and 1/2 in each of its neighbours.
+    #[test]
+    fn levels_are_means_over_the_polygon() {
+        let triangle = polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]);
+        let (mut patterns, mut sheets) = (patterns(1), Vec::new());
+        for (index, polygon) in
+            [&triangle, &triangle, &polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]])].iter().enumerate()
+        {
+            let [shown] = &patterns.shown(polygon, &mut sheets)[..] else { panic!("there is one") };
+            assert_eq!((shown.pattern, shown.factor, shown.texels), (index as u32, Vec3::ONE, 6.0));
+        }
+        // The same image is held once.
+        assert_eq!([0, 1, 2].map(|index: usize| sheets[index].first_texel), [0, 0, 6 + 2 + 1]);
+        let texels: Vec<f32> = patterns.texels().iter().copied().step_by(3).collect();
+        let mean = (1.0 + 0.5 * 3.0 + 0.5 * 5.0) / 2.0;
+        let expected = [1.0, 3.0, mean, 5.0, mean, mean, mean, mean, mean];
+        assert_eq!(texels.len(), 2 * expected.len());
+        for (found, expected) in texels.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{texels:?}");
+        }
+    }
+
+    /// A polygon of which some is beside the image: each piece shines as its cell does, and all add up to it.
+    #[test]
+    fn pieces_are_parts_of_the_polygon() {
+        let whole = polygon(&[[-1.0, 0.0], [2.5, 0.0], [2.5, 2.0], [-1.0, 1.5]]);
+        let (mut patterns, mut sheets) = (patterns(16), Vec::new());
+        let pieces = patterns.shown(&whole, &mut sheets);
+        assert!(sheets.is_empty() && pieces.len() == 4, "{} sheets, {} pieces", sheets.len(), pieces.len());
+        let area = |polygon: &Polygon| {
+            let corners = &polygon.contours[0];
+            corners.windows(2).map(|pair| 0.5 * pair[0].cross(pair[1]).z).sum::<f32>()
+                + 0.5 * corners[corners.len() - 1].cross(corners[0]).z
+        };
+        let mut lit: Vec<(f32, f32)> = pieces.iter().map(|piece| (piece.factor.x, area(&piece.polygon))).collect();
+        lit.sort_by(|one, other| one.0.total_cmp(&other.0));
+        // The upper side is y = (x + 1) / 7 + 1.5.
+        let expected = [(1.0, 2.0), (3.0, 1.0), (5.0, 2.0 * 0.5 + 2.0 / 7.0), (7.0, 0.5 + 2.5 / 7.0)];
+        for (found, expected) in lit.iter().zip(expected) {
+            assert!(found.0 == expected.0 && (found.1 - expected.1).abs() < 1e-6, "{lit:?}");
+        }
+    }
+}
