@@ -37,15 +37,17 @@ pub(super) struct Shown<'a> {
 /// `PATTERNS_NONE` of `patterns.wgsl`.
 const NONE: u32 = u32::MAX;
 
-/// The most pieces of all textured polygons of a scene, each of which takes as long as a light.
-const PIECES: usize = 64;
+/// The most pieces of all textured polygons of a scene, each of which takes as long as a light; and where all are even, so that
+/// no sample has to make up for what is not.
+const PIECES: usize = 16;
+const EVEN_PIECES: usize = 64;
 
 /// What the textured lights of a scene show, as often as it is drawn.
 pub(super) struct Patterns {
     held: Vec<Held>,
     texels: Vec<f32>,
-    /// The most pieces of each.
-    most: usize,
+    /// The most pieces of each, and where all are even.
+    most: [usize; 2],
 }
 
 struct Held {
@@ -59,7 +61,8 @@ impl Patterns {
     pub fn new(drawn: &Drawn) -> Self {
         let polygons = drawn.scene.lights.iter().flat_map(|light| &light.polygons);
         let count = polygons.filter(|polygon| polygon.pattern.is_some()).count();
-        Self { held: Vec::new(), texels: Vec::new(), most: (PIECES / count.max(1)).max(1) }
+        let most = [PIECES, EVEN_PIECES].map(|pieces| (pieces / count.max(1)).max(1));
+        Self { held: Vec::new(), texels: Vec::new(), most }
     }
 
     /// All texels of all levels, three numbers each.
@@ -108,7 +111,10 @@ impl Patterns {
             let levels = levels(&parts, pattern);
             // Others stay whole.
             let is_convex = polygon.contours.len() == 1 && parts.len() == 1;
-            let pieces = pieces(&levels[0], pattern.image.size, if is_convex { self.most } else { 1 });
+            let [few, many] = if is_convex { self.most } else { [1; 2] };
+            let cut = |most: usize| pieces(&levels[0], pattern.image.size, most);
+            let even = cut(many);
+            let pieces = if even.iter().all(|piece| piece.even.is_some()) { even } else { cut(few) };
             let first_texel = self.texels.len() as u32 / 3;
             self.texels.extend(levels.iter().flatten().flat_map(|texel| texel.mean.as_vec3().to_array()));
             self.held.push(Held { image: pattern.image.clone(), first_texel, pieces });
@@ -194,7 +200,7 @@ mod tests {
     }
 
     fn patterns(most: usize) -> Patterns {
-        Patterns { held: Vec::new(), texels: Vec::new(), most }
+        Patterns { held: Vec::new(), texels: Vec::new(), most: [1, most] }
     }
 
     /// Of the triangle 1 lies in the first cell, and 1/2 in each of its neighbours.

@@ -36,6 +36,7 @@ mod silhouettes;
 mod stage;
 mod state;
 mod tables;
+mod textured_lights;
 mod textures;
 mod truth;
 mod unlit;

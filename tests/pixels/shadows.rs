@@ -19,7 +19,7 @@ use super::truth::Truth;
 const SIZE: [u32; 2] = [40, 30];
 
 /// Samples at the pixels' centres.
-fn centred(samples: u32, seed: u32) -> Effort {
+pub fn centred(samples: u32, seed: u32) -> Effort {
     Effort { samples, seed, spread: false }
 }
 
@@ -32,7 +32,7 @@ pub fn offscreen(case: &Case, is_shown: bool, effort: Effort) -> Offscreen {
 }
 
 /// Real time's picture, in linear radiance.
-fn pictured(case: &Case, size: [u32; 2], effort: Effort) -> LinearImage {
+pub fn pictured(case: &Case, size: [u32; 2], effort: Effort) -> LinearImage {
     let settings = case.edits.settings();
     let mut offscreen = offscreen(case, false, effort);
     GPU.block_on(offscreen.linear(&GPU, &case.scene.cameras[0], size, &settings)).unwrap()
