@@ -117,6 +117,8 @@ impl Shadows {
             return None;
         }
         let (is_first, bounds) = (self.resident.is_none(), drawn.scene.bounds());
+        // About the world's origin: about any other point, what is near that would lose digits.
+        let most = bounds.min.abs().max(bounds.max.abs()).as_dvec3();
         let opacities = self.opacities.get_or_insert_with(|| Arc::new(Opacities::new(drawn)));
         Some(Blockers {
             others: is_first.then(|| Gathered::new(drawn, Kind::Others)),
@@ -124,7 +126,7 @@ impl Shadows {
             emitting: emitting_triangles(drawn),
             opacities: opacities.clone(),
             placed,
-            units: units([bounds.min, bounds.max].map(|corner| corner.as_dvec3())),
+            units: units([-most, most]),
         })
     }
 
