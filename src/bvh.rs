@@ -113,12 +113,19 @@ impl<P: Primitive> Bvh<P> {
         let bounds = primitives.iter().map(P::bounds).filter(is_finite);
         let union = |[low, high]: [DVec3; 2], bounds: [DVec3; 2]| [low.min(bounds[0]), high.max(bounds[1])];
         let [low, high] = bounds.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], union);
-        Self::in_units(primitives, units([low, high]))
+        // Rays are followed from where they enter a sphere around everything.
+        Self::padded(primitives, units([low, high]), |_| PADDING)
     }
 
     /// The same in units of one's choice, which is for several hierarchies that a ray is to go through: where the coordinates
-    /// begin, and half the size of a cube about it in which most things are, over 2^20.
-    pub fn in_units(primitives: Vec<P>, (center, scale): (DVec3, f64)) -> Self {
+    /// begin, and half the size of a cube about it in which everything is, over 2^20. It is for rays that are followed from where
+    /// they start: boxes are padded by what their own coordinates are rounded by, and are tight beside something very large.
+    pub fn in_units(primitives: Vec<P>, units: (DVec3, f64)) -> Self {
+        Self::padded(primitives, units, |farthest| PADDING / SPAN as f32 * farthest)
+    }
+
+    /// With boxes padded by a function of their greatest coordinate.
+    fn padded(primitives: Vec<P>, (center, scale): (DVec3, f64), padding: impl Fn(f32) -> f32) -> Self {
         let bounded = |primitive: P| {
             let bounds = primitive.bounds();
             is_finite(&bounds).then_some((primitive, bounds))
@@ -127,8 +134,9 @@ impl<P: Primitive> Bvh<P> {
         let scaled = |corner: DVec3| Vec3A::from(((corner - center) / scale).as_vec3());
         let padded = |index: usize, [low, high]: [DVec3; 2]| {
             let (low, high) = (scaled(low), scaled(high));
-            let is_tiny = (high - low).max_element() < PADDING;
-            let padding = if is_tiny { PADDING * (1.0 + jitter(index)) } else { Vec3A::splat(PADDING) };
+            let padding = padding(low.abs().max(high.abs()).max_element());
+            let is_tiny = (high - low).max_element() < padding;
+            let padding = if is_tiny { padding * (1.0 + jitter(index)) } else { Vec3A::splat(padding) };
             Boxed(Aabb::new(low - padding, high + padding))
         };
         let boxes: Vec<Boxed> = bounded.iter().enumerate().map(|(index, (_, bounds))| padded(index, *bounds)).collect();
@@ -327,6 +335,20 @@ mod tests {
         assert_eq!(one.nearest(&ray, [0.0, 1e9], |_| true).map(|met| met.distance), Some(2.0));
         let broken = Bvh::new(vec![Ball { center: DVec3::NAN, radius: 1.0 }]);
         assert!(broken.primitives().is_empty() && broken.nearest(&ray, [0.0, 1e9], |_| true).is_none());
+    }
+
+    /// They were padded by more than all that was small, so that rays met all of it.
+    #[test]
+    fn boxes_are_tight_beside_something_very_large() {
+        let mut balls = balls(1000, DVec3::ZERO, 1.0);
+        balls.push(Ball { center: DVec3::ZERO, radius: 1e7 });
+        let (center, unit) = units([DVec3::splat(-1e7), DVec3::splat(1e7)]);
+        let bvh = Bvh::in_units(balls, (center, unit));
+        let nodes = bvh.nodes().as_chunks::<80>().0;
+        // The exponents of a step of a child's box, of which there are up to 255.
+        let side = |node: &[u8; 80]| (12..15).map(|at| 255.0 * f64::from(node[at]).exp2()).fold(0.0, f64::max);
+        let small = nodes.iter().filter(|node| side(node) * (-127.0_f64).exp2() * unit < 8.0).count();
+        assert!(small + 2 >= nodes.len() && nodes.len() > 100, "{small} of {}", nodes.len());
     }
 
     /// Their boxes are all alike: to pair but two of them at a time took minutes.

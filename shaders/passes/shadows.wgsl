@@ -19,6 +19,9 @@ struct ShadowsOrigin {
 // Rounding, as a share of what positions are computed from, and of half the scene's size, from which the trees' coordinates are.
 const SHADOWS_ROUNDING = 4e-6;
 const SHADOWS_ROUNDING_OF_SCENE = 2e-7;
+// But no more of the latter than that share of the distance to the camera, which is about a pixel: where one thing is far larger than what is looked at,
+// rays would start beyond that.
+const SHADOWS_ROUNDING_MOST = 1e-3;
 
 // Lights without extent have no emitter.
 const SHADOWS_NO_EMITTER = 0xfffffffeu;
@@ -35,8 +38,9 @@ fn shadows_origin(
     let normal = select(point.smooth_normal, facing, dot(unit, unit) > 0.0);
     let lift = max(side * (height - dot(n_center, p_from_origin)), 0.0);
     let size = max(abs(point.p_world), abs(p_from_origin));
-    let scene = BLOCKERS_SPAN * blockers_all.unit;
-    let apart = SHADOWS_ROUNDING * max(size.x, max(size.y, size.z)) + SHADOWS_ROUNDING_OF_SCENE * scene;
+    let of_scene = SHADOWS_ROUNDING_OF_SCENE * BLOCKERS_SPAN * blockers_all.unit;
+    let most = SHADOWS_ROUNDING_MOST * length(p_from_origin);
+    let apart = SHADOWS_ROUNDING * max(size.x, max(size.y, size.z)) + min(of_scene, most);
     return ShadowsOrigin(point.p_world + lift * point.smooth_normal, normal, lift, apart);
 }
 

@@ -14,6 +14,9 @@ use crate::scene::{AlphaMode, Drawn, Filter, Material, Mesh, Sampler, Scene, Tex
 /// `BLOCKERS_NONE` of `blockers.wgsl`.
 const NONE: u32 = u32::MAX;
 
+/// Most looks that a record tells apart: it has 16 bits for that.
+pub(super) const MOST_LOOKS: usize = 1 << 16;
+
 /// `BlockersTriangle` of `blockers.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -40,7 +43,7 @@ pub(super) struct Tree {
 pub(super) struct Opacities {
     /// Of each triangle: its corners' texture coordinates, opacities, and its look.
     pub records: Vec<[Words; 2]>,
-    /// By material.
+    /// Of the materials that are not opaque, in their order: at most [`MOST_LOOKS`].
     pub looks: Vec<[Words; 2]>,
     /// The alphas of images, one after the other.
     pub alphas: Vec<u8>,
@@ -143,42 +146,44 @@ impl Opacities {
     pub fn new(drawn: &Drawn) -> Self {
         let (scene, mut found) = (drawn.scene, Self::default());
         let mut images: Vec<Option<u32>> = vec![None; scene.images.len()];
+        let mut looks = Vec::with_capacity(drawn.materials.len());
         for material in &drawn.materials {
             let look = found.look(scene, material, &mut images);
-            found.looks.push(look);
+            looks.push(look.map(|_| found.looks.len() as u32));
+            found.looks.extend(look);
         }
         for instance in 0..drawn.instances.len() {
             let mesh = mesh(drawn, instance);
-            let is_opaque = drawn.materials[mesh.material].alpha_mode == AlphaMode::Opaque;
-            found.first_of.push((!is_opaque).then_some(found.records.len() as u32));
-            if !is_opaque {
-                let record = |corners: &[u32; 3]| record(mesh, &drawn.materials[mesh.material], *corners);
+            let look = looks[mesh.material];
+            found.first_of.push(look.map(|_| found.records.len() as u32));
+            if let Some(look) = look {
+                let record = |corners: &[u32; 3]| record(mesh, &drawn.materials[mesh.material], look, *corners);
                 found.records.extend(mesh.indices.as_chunks::<3>().0.iter().map(record));
             }
         }
         found
     }
 
-    /// What `blockers_texel` and `blockers_opacity` read of a material.
-    fn look(&mut self, scene: &Scene, material: &Material, images: &mut [Option<u32>]) -> [Words; 2] {
+    /// What `blockers_texel` and `blockers_opacity` read of a material; nothing of one that is opaque.
+    fn look(&mut self, scene: &Scene, material: &Material, images: &mut [Option<u32>]) -> Option<[Words; 2]> {
         let cutoff: f32 = match material.alpha_mode {
-            AlphaMode::Opaque => return [[0; 4]; 2],
+            AlphaMode::Opaque => return None,
             AlphaMode::Mask { cutoff } => cutoff,
             AlphaMode::Blend => -1.0,
         };
         let factors = [material.opacity.to_bits(), cutoff.to_bits(), 0, 0];
-        let Some(used) = material.texture(TextureSlot::BaseColor) else { return [[0; 4], factors] };
+        let Some(used) = material.texture(TextureSlot::BaseColor) else { return Some([[0; 4], factors]) };
         let texture = scene.textures[used.texture];
         let image = &scene.images[texture.image];
         if image.texels.iter().all(|texel| texel[3] == u8::MAX) {
-            return [[0; 4], factors];
+            return Some([[0; 4], factors]);
         }
         let first = *images[texture.image].get_or_insert_with(|| {
             let first = self.alphas.len() as u32;
             self.alphas.extend(image.texels.iter().map(|texel| texel[3]));
             first
         });
-        [[first, image.width, image.height, bits(texture.sampler)], factors]
+        Some([[first, image.width, image.height, bits(texture.sampler)], factors])
     }
 }
 
@@ -193,8 +198,8 @@ fn bits(sampler: Sampler) -> u32 {
     u | v << 2 | u32::from(sampler.magnify == Filter::Nearest) << 4
 }
 
-/// A triangle's texture coordinates and opacities; it has the look of its mesh's material.
-fn record(mesh: &Mesh, material: &Material, corners: [u32; 3]) -> [Words; 2] {
+/// A triangle's texture coordinates, opacities, and its look.
+fn record(mesh: &Mesh, material: &Material, look: u32, corners: [u32; 3]) -> [Words; 2] {
     let uv = |corner: u32| {
         let Some(used) = material.texture(TextureSlot::BaseColor) else { return DVec2::ZERO };
         let at = mesh.tex_coords[used.tex_coord].get(corner as usize).copied().unwrap_or(Vec2::ZERO);
@@ -205,6 +210,36 @@ fn record(mesh: &Mesh, material: &Material, corners: [u32; 3]) -> [Words; 2] {
     let [first, second, third] = corners.map(alpha);
     [
         [a.x.to_bits(), a.y.to_bits(), b.x.to_bits(), b.y.to_bits()],
-        [c.x.to_bits(), c.y.to_bits(), first | second << 16, third | (mesh.material as u32) << 16],
+        [c.x.to_bits(), c.y.to_bits(), first | second << 16, third | look << 16],
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Mat4;
+
+    use super::*;
+    use crate::scene::{Edits, Instance};
+
+    /// A triangle of the last material, which is cut out, after so many that are opaque.
+    fn after(opaque: usize) -> Scene {
+        let mut materials = vec![Material::matte("opaque", Vec3::ONE); opaque];
+        materials.push(Material { alpha_mode: AlphaMode::Mask { cutoff: 0.25 }, ..Material::matte("cut", Vec3::ONE) });
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let mesh = Mesh { positions, indices: vec![0, 1, 2], material: opaque, ..Mesh::default() };
+        let instance = Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+        Scene { meshes: vec![mesh], instances: vec![instance], materials, ..Scene::default() }
+    }
+
+    /// Its index took more than the bits that a record has for a look.
+    #[test]
+    fn a_look_is_found_whatever_its_material_s_index() {
+        for opaque in [0, 3, MOST_LOOKS + 4] {
+            let (scene, edits) = (after(opaque), Edits::default());
+            let opacities = Opacities::new(&Drawn::new(&scene, &edits));
+            let [[_, [_, _, _, last]]] = opacities.records[..] else { panic!("a record for each triangle") };
+            let [_, [_, cutoff, ..]] = opacities.looks[(last >> 16) as usize];
+            assert_eq!((f32::from_bits(cutoff), opacities.looks.len()), (0.25, 1), "after {opaque}");
+        }
+    }
 }

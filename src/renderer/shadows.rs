@@ -8,10 +8,10 @@ use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Limits, Queue, ShaderStages, Texture, TextureView};
 
 use super::Gpu;
-use super::blockers::{Gathered, Kind, Opacities, Tree, Words, emitting_triangles, most_nodes};
+use super::blockers::{Gathered, Kind, MOST_LOOKS, Opacities, Tree, Words, emitting_triangles, most_nodes};
 use super::tracked_buffer::TrackedBuffer;
 use crate::bvh::units;
-use crate::scene::{Drawn, Instance};
+use crate::scene::{AlphaMode, Drawn, Instance};
 
 /// Longest side of a layer of alphas.
 const ALPHAS_SIDE: usize = 4096;
@@ -117,6 +117,8 @@ impl Shadows {
             return None;
         }
         let (is_first, bounds) = (self.resident.is_none(), drawn.scene.bounds());
+        // About the world's origin: about any other point, what is near that would lose digits.
+        let most = bounds.min.abs().max(bounds.max.abs()).as_dvec3();
         let opacities = self.opacities.get_or_insert_with(|| Arc::new(Opacities::new(drawn)));
         Some(Blockers {
             others: is_first.then(|| Gathered::new(drawn, Kind::Others)),
@@ -124,7 +126,7 @@ impl Shadows {
             emitting: emitting_triangles(drawn),
             opacities: opacities.clone(),
             placed,
-            units: units([bounds.min, bounds.max].map(|corner| corner.as_dvec3())),
+            units: units([-most, most]),
         })
     }
 
@@ -160,11 +162,25 @@ fn lack(limits: &Limits, drawn: &Drawn) -> Option<String> {
             "the adapter's textures have {side} texels a side, of {ROW} that shadows take: {WITHOUT}; use another --adapter"
         ));
     }
+    let looks = drawn.materials.iter().filter(|material| material.alpha_mode != AlphaMode::Opaque).count();
+    if looks > MOST_LOOKS {
+        return Some(format!(
+            "{looks} materials are cut out or blended, of at most {MOST_LOOKS} that rays tell apart: {WITHOUT}; merge those that are alike"
+        ));
+    }
     let triangles = |instance: &Instance| drawn.scene.meshes[instance.mesh].indices.len() / 3;
     let all: usize = drawn.instances.iter().map(triangles).sum();
     let most = side * ROW / TRIANGLE;
     (all > most).then(|| {
         format!("{all} triangles cast shadows, of at most {most} that the adapter holds: {WITHOUT}; simplify the scene")
+    })
+}
+
+/// The same of trees that are built, which take so many rows.
+fn lack_of_rows(limits: &Limits, rows: usize) -> Option<String> {
+    let most = limits.max_texture_dimension_2d as usize;
+    (rows > most).then(|| {
+        format!("what casts shadows takes {rows} rows, of at most {most} that the adapter holds: {WITHOUT}; simplify the scene")
     })
 }
 
@@ -191,10 +207,9 @@ impl ResidentTrees {
         let first_record = root + NODE * others.nodes.len();
         let first_look = first_record + OPACITY * opacities.records.len();
         let texels = [first_look + OPACITY * opacities.looks.len(), first_triangle + TRIANGLE * others.triangles.len()];
-        let most = device.limits().max_texture_dimension_2d as usize;
         let [node_rows, triangle_rows] = texels.map(rows);
-        if node_rows + triangle_rows > most {
-            return Err(format!("what casts shadows is more than the adapter holds: {WITHOUT}; simplify the scene"));
+        if let Some(lack) = lack_of_rows(&device.limits(), node_rows + triangle_rows) {
+            return Err(lack);
         }
         others.place(root / NODE, first_triangle / TRIANGLE, first_record);
         let numbers = numbers(device, node_rows + triangle_rows);
@@ -339,6 +354,34 @@ mod tests {
     use super::super::layout::{differences, members};
     use super::super::shader::SURFACES_WGSL;
     use super::*;
+    use crate::scene::{Edits, Material, Mesh, Scene};
+
+    /// So many instances of a hundred thousand triangles, and so many materials that are blended.
+    fn crowd(instances: usize, blended: usize) -> Scene {
+        let mesh = Mesh { positions: vec![Vec3::ZERO], indices: vec![0; 3 * 100_000], ..Mesh::default() };
+        let instance = Instance { name: String::new(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+        let blend = Material { alpha_mode: AlphaMode::Blend, ..Material::matte("glass", Vec3::ONE) };
+        let mut materials = vec![Material::matte("cloth", Vec3::ONE)];
+        materials.extend(vec![blend; blended]);
+        Scene { meshes: vec![mesh], instances: vec![instance; instances], materials, ..Scene::default() }
+    }
+
+    #[test]
+    fn what_a_device_cannot_hold_is_said() {
+        let limits = |side: usize| Limits { max_texture_dimension_2d: side as u32, ..Limits::default() };
+        let said = |side: usize, scene: &Scene| lack(&limits(side), &Drawn::new(scene, &Edits::default()));
+        let hint = |said: Option<String>, hint: &str| {
+            assert!(said.as_ref().is_some_and(|said| said.contains(hint)), "{said:?}")
+        };
+        // A third of ROW x ROW texels: 22.4 million triangles.
+        assert_eq!(said(ROW, &crowd(223, MOST_LOOKS)), None);
+        hint(said(ROW, &crowd(224, 1)), "22400000 triangles cast shadows, of at most 22369621");
+        assert_eq!(said(2 * ROW, &crowd(224, 1)), None);
+        hint(said(ROW - 1, &crowd(1, 1)), "textures have 8191 texels a side");
+        hint(said(ROW, &crowd(1, MOST_LOOKS + 1)), "65537 materials are cut out or blended");
+        assert_eq!(lack_of_rows(&limits(ROW), ROW), None);
+        hint(lack_of_rows(&limits(ROW), ROW + 1), "takes 8193 rows");
+    }
 
     #[test]
     fn trees_stand_as_the_shader_reads_them() {

@@ -7,8 +7,8 @@ mod stage;
 
 use std::sync::{Mutex, PoisonError};
 
-use glam::Mat4;
-use stage::Stage;
+use glam::{Mat4, Vec3};
+use stage::{SIZE, Stage};
 use velour::picture::ToneCurve;
 use velour::renderer::device;
 use velour::scene::LightEdits;
@@ -38,18 +38,19 @@ fn taken() -> usize {
     of("RssAnon:") + of("VmSwap:")
 }
 
-/// Runs frames until they have taken too much memory, or all have run.
-fn level(frames: usize, mut frame: impl FnMut(usize)) -> Result<(), String> {
+/// Runs frames until they have taken too much memory, or all have run: how much they have taken at most, in kB.
+fn level(frames: usize, mut frame: impl FnMut(usize)) -> Result<usize, String> {
     (0..WARM_UP).for_each(&mut frame);
-    let first = taken();
+    let (first, mut most) = (taken(), 0);
     for index in 0..frames {
         frame(WARM_UP + index);
         let grown = taken().saturating_sub(first);
         if grown > MOST {
             return Err(format!("{grown} kB more after {} frames", index + 1));
         }
+        most = most.max(grown);
     }
-    Ok(())
+    Ok(most)
 }
 
 /// Whatever a pipeline drew first: some drivers decide then whether they compile anew for each value of a uniform.
@@ -59,8 +60,8 @@ fn frames_take_no_memory() {
     let gpu = pollster::block_on(device::open_offscreen(None)).expect("this test needs a device");
     for samples in [1, 4] {
         for tone in TONE_CURVES {
-            let mut stage = Stage::new(&gpu, samples, tone);
-            let hold = |what: &str, held: Result<(), String>| {
+            let mut stage = Stage::new(&gpu, samples, tone, false);
+            let hold = |what: &str, held: Result<usize, String>| {
                 held.unwrap_or_else(|said| panic!("{what}, {samples} samples, {tone:?} first: {said}"));
             };
             stage.draw();
@@ -92,9 +93,50 @@ fn frames_take_no_memory() {
     }
 }
 
+/// A picture with shadows that converges, over and over; while its exposure, a light's place or its size change.
+#[test]
+fn frames_with_shadows_take_no_memory() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let gpu = pollster::block_on(device::open_offscreen(None)).expect("this test needs a device");
+    let mut stage = Stage::new(&gpu, 1, ToneCurve::default(), true);
+    let hold = |what: &str, held: Result<usize, String>| {
+        let grown = held.unwrap_or_else(|said| panic!("{what}: {said}"));
+        println!("{what}: {grown} kB more at most, of {} kB", taken());
+    };
+    let still = level(DRAG_FRAMES, |frame| if frame % 100 == 0 { stage.draw() } else { stage.refine() });
+    hold("a picture that converges", still);
+    let exposed = level(DRAG_FRAMES, |frame| {
+        stage.settings.exposure = 0.01 * (frame % 100) as f32;
+        stage.refine();
+    });
+    hold("exposures", exposed);
+    let lit = level(DRAG_FRAMES, |frame| {
+        // It goes to and fro, and is put out now and then.
+        let to = 0.01 * (frame % 50) as f32 * Vec3::X;
+        let strength = Some(if frame % 10 == 0 { 0.0 } else { 1.0 });
+        let position = Some(Vec3::new(-1.0, 0.0, 2.0) + to);
+        stage.edits.lights.insert(0, LightEdits { position, strength, ..LightEdits::default() });
+        stage.edits.lights_visible = Some(frame % 7 > 0);
+        stage.update();
+        stage.draw();
+    });
+    hold("a light that moves", lit);
+    let turned = level(DRAG_FRAMES, |frame| {
+        stage.camera.world_from_camera *= Mat4::from_rotation_z(0.01);
+        stage.settings.lobes.sheen ^= frame % 5 == 0;
+        stage.draw();
+    });
+    hold("a drag of the view", turned);
+    let sizes = level(DRAG_FRAMES, |frame| {
+        stage.size = SIZE.map(|side| side - (frame % 16) as u32);
+        stage.draw();
+    });
+    hold("sizes", sizes);
+}
+
 #[test]
 fn what_takes_memory_is_found() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    assert_eq!(level(FRAMES, |_| ()), Ok(()));
+    assert!(level(FRAMES, |_| ()).is_ok());
     assert!(level(FRAMES, |_| _ = std::hint::black_box(vec![1_u8; 1 << 20].leak())).is_err());
 }

@@ -1,4 +1,4 @@
-//! A dusty floor under two lights, and the passes that draw it as a window does.
+//! A dusty floor and a plate over it under two lights, and the passes that draw them as a window does.
 
 use glam::{Mat4, Vec3};
 use velour::picture::ToneCurve;
@@ -8,7 +8,8 @@ use velour::scene::{
 };
 use velour::table::SheenTable;
 
-const SIZE: [u32; 2] = [64, 36];
+/// Of the output.
+pub const SIZE: [u32; 2] = [64, 36];
 
 pub struct Stage<'a> {
     scene: Scene,
@@ -18,11 +19,15 @@ pub struct Stage<'a> {
     gpu: &'a Gpu,
     renderer: Renderer,
     output: wgpu::TextureView,
+    /// Of the picture, which is shown in all of the output.
+    pub size: [u32; 2],
+    /// The next sample's index.
+    next: u32,
 }
 
 impl<'a> Stage<'a> {
-    pub fn new(gpu: &'a Gpu, samples: u32, tone: ToneCurve) -> Self {
-        let (scene, edits) = (scene(), Edits::default());
+    pub fn new(gpu: &'a Gpu, samples: u32, tone: ToneCurve, shadows: bool) -> Self {
+        let (scene, edits) = (scene(), Edits { shadows: Some(shadows), ..Edits::default() });
         let settings = Settings { tone, ..edits.settings() };
         let radiance = RadianceFormat::display(&gpu.adapter, samples).expect("the device draws floats");
         let format = Format { radiance, output: wgpu::TextureFormat::Rgba8Unorm, measured: false };
@@ -39,17 +44,31 @@ impl<'a> Stage<'a> {
         });
         let output = output.create_view(&Default::default());
         let camera = scene.cameras[0].clone();
-        Self { scene, edits, settings, camera, gpu, renderer, output }
+        let mut stage = Self { scene, edits, settings, camera, gpu, renderer, output, size: SIZE, next: 0 };
+        stage.update();
+        assert_eq!(stage.renderer.has_shadows(&stage.settings), shadows);
+        stage
     }
 
     /// Sends what the edits have made of the lights to the device.
     pub fn update(&mut self) {
-        self.renderer.update(self.gpu, &Drawn::new(&self.scene, &self.edits)).unwrap();
+        let drawn = Drawn::new(&self.scene, &self.edits);
+        self.renderer.update(self.gpu, &drawn).unwrap();
+        if let Some(blockers) = self.renderer.blockers(self.gpu, &drawn) {
+            self.renderer.receive(self.gpu, blockers.build());
+        }
     }
 
     /// A frame whose picture has changed.
     pub fn draw(&mut self) {
+        self.next = 0;
+        self.refine();
+    }
+
+    /// A frame that adds a sample to the last picture.
+    pub fn refine(&mut self) {
         self.frame(true);
+        self.next += 1;
     }
 
     /// A frame that shows the last picture again.
@@ -61,8 +80,9 @@ impl<'a> Stage<'a> {
         let showing = Showing::Shown { exposure: self.settings.exposure, tone: self.settings.tone };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         if draws {
-            let view = View::new(&self.camera, SIZE, Rect::full(SIZE));
-            self.renderer.draw(self.gpu, &mut encoder, SIZE, (&view, &self.settings, showing), &Sample::FIRST);
+            let view = View::new(&self.camera, self.size, Rect::full(self.size));
+            let sample = Sample { index: self.next, seed: 0, spread: true };
+            self.renderer.draw(self.gpu, &mut encoder, self.size, (&view, &self.settings, showing), &sample);
         }
         self.renderer.show(self.gpu, &mut encoder, (&self.output, Rect::full(SIZE)), showing);
         self.gpu.queue.submit([encoder.finish()]);
@@ -77,7 +97,8 @@ fn scene() -> Scene {
     let lamp = Material { emission: Vec3::ONE, ..Material::matte("lamp", Vec3::ZERO) };
     // Lamps face the floor.
     let down = |x: f32| Mat4::from_translation(Vec3::new(x, 0.0, 2.0)) * Mat4::from_rotation_x(std::f32::consts::PI);
-    let places = [Mat4::from_scale(Vec3::splat(4.0)), down(-1.0), down(1.0)];
+    let plate = Mat4::from_translation(Vec3::Z) * Mat4::from_scale(Vec3::splat(0.5));
+    let places = [Mat4::from_scale(Vec3::splat(4.0)), down(-1.0), down(1.0), plate];
     let world_from_camera = Mat4::from_translation(Vec3::new(0.0, -3.0, 4.0)) * Mat4::from_rotation_x(0.64);
     Scene {
         meshes: vec![square(0), square(1)],
@@ -107,9 +128,10 @@ fn square(material: usize) -> Mesh {
     }
 }
 
-/// The floor is the first, lamps are the others.
+/// The floor is the first, then come two lamps, then the plate.
 fn instance(index: usize, world_from_mesh: Mat4) -> Instance {
-    Instance { name: format!("square {index}"), mesh: index.min(1), world_from_mesh }
+    let mesh = usize::from(index == 1 || index == 2);
+    Instance { name: format!("square {index}"), mesh, world_from_mesh }
 }
 
 fn light(instance: usize, world_from_mesh: Mat4) -> Light {

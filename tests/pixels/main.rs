@@ -14,6 +14,7 @@ mod edge_on;
 mod embedded;
 mod emitters;
 mod exposures;
+mod extremes;
 mod far;
 mod golden;
 mod layers;
