@@ -39,19 +39,21 @@ fn ltc_sample_begin(number: f32, form_factor: f32) -> LtcSampleFan {
     return LtcSampleFan(select(-1.0, 2.0 * LTC_SAMPLE_PI * number * form_factor, form_factor > 0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0), 0.0, mat3x3<f32>(), mat3x3<f32>(), vec3(0.0));
 }
 
-// Adds the edge that an LtcOutline walked last, and what along the horizon leads to it.
+// Adds the edge that an LtcOutline walked last, after what along the horizon leads to it: in a loop, as drivers that do both sides of a branch can leave it.
 fn ltc_sample_edge(before: LtcSampleFan, p: vec3<f32>, q: vec3<f32>, normal: vec3<f32>, sine: f32, m_inv: mat3x3<f32>) -> LtcSampleFan {
     var fan = before;
     if sine > 0.0 {
         let scale = vec2(ltc_sample_scale(p), ltc_sample_scale(q));
         let start = scale.x * p;
-        if all(fan.apex == vec3(0.0)) {
-            fan.apex = start;
-            fan.reached = start;
-        } else if any(fan.reached != start) {
-            fan = ltc_sample_triangle(fan, start, ltc_sample_cross(fan.reached, start), m_inv);
+        fan.reached = select(fan.reached, start, all(fan.apex == vec3(0.0)));
+        fan.apex = select(fan.apex, start, all(fan.apex == vec3(0.0)));
+        for (var is_edge = all(fan.reached == start); ; is_edge = true) {
+            let plane = select(ltc_sample_cross(fan.reached, start), -(scale.x * normal) * (scale.y * sine), is_edge);
+            fan = ltc_sample_triangle(fan, select(start, scale.y * q, is_edge), plane, m_inv);
+            if is_edge {
+                break;
+            }
         }
-        fan = ltc_sample_triangle(fan, scale.y * q, -(scale.x * normal) * (scale.y * sine), m_inv);
     }
     return fan;
 }
@@ -89,9 +91,8 @@ fn ltc_sample_point(fan: LtcSampleFan, m_inv: mat3x3<f32>, number: f32) -> vec3<
     let arc = turn.x * wedge.corner + turn.y * cross(wedge.normal, wedge.corner);
     let inward = number * ltc_sample_swept(wedge, turn).y;
     let height = sqrt(max(arc.z * arc.z + inward * dot(arc.xy, arc.xy), 1e-30));
-    let across = arc.xy * sqrt(1.0 - inward);
-    let x = (across.x - m_inv[2].x * height) / m_inv[0].x;
-    return select(vec3(0.0), normalize(vec3(x, across.y / m_inv[1].y, height)), sum != 0.0);
+    let across = (arc.xy * sqrt(1.0 - inward) - vec2(m_inv[2].x * height, 0.0)) / vec2(m_inv[0].x, m_inv[1].y);
+    return select(vec3(0.0), normalize(vec3(across, height)), sum != 0.0);
 }
 
 // Adds the triangle of the apex, the point reached and the next one. The first edge and the last have none.
@@ -139,9 +140,8 @@ fn ltc_sample_solve(wedge: LtcSampleWedge, area: f32) -> vec2<f32> {
     let whole = ltc_sample_swept(wedge, wedge.end);
     let share = clamp(area / max(whole.x, 1e-37), 0.0, 1.0);
     let greatest = ltc_sample_angle(wedge.end.y, wedge.end.x);
-    let square = area * wedge.inner / max(-wedge.outer * wedge.lean, 1e-37);
     let cube = max(3.0 * area * wedge.inner * wedge.inner / max(wedge.outer * wedge.steep, 1e-37), 1e-30);
-    let at_corner = 0.8 * min(sqrt(square), pow(cube, 1.0 / 3.0));
+    let at_corner = 0.8 * min(sqrt(area * wedge.inner / max(-wedge.outer * wedge.lean, 1e-37)), pow(cube, 1.0 / 3.0));
     let at_end = greatest * pow(max(share, 1e-12), clamp(whole.x / max(wedge.outer * whole.y * greatest, 1e-37), 0.25, 1.0));
     let guess = max(at_end, min(at_corner, greatest * sqrt(share)));
     var turn = vec2(cos(guess), sin(guess));

@@ -8,11 +8,15 @@ struct RaysMeeting {
     weights: vec2f,
 }
 
-// As deep as a tree may be: src/bvh.rs builds none that is deeper.
+// Groups that may wait. Of 5000 triangles, each within the one before, 14 do (a test in src/renderer/blockers.rs holds them below this).
 const RAYS_STACK = 32;
-// A group that is a root alone; and below its upper eight bits.
-const RAYS_ROOT = 0x80000000u;
-const RAYS_CHILDREN = 0xffffffu;
+// Of a group of siblings that are to be visited, the bits that say which, in the order of the ray's octant; above them is the place to which
+// their slots are added.
+const RAYS_SLOTS = 0xffu;
+const RAYS_SLOT_BITS = 8u;
+// Of what a ray meets of a node's children, the bits of the triangles; the nodes' are above them.
+const RAYS_TRIANGLES = 0xffffffu;
+const RAYS_TRIANGLE_BITS = 24u;
 // How far outside an edge a triangle is still met, in weights of its corners, so that neighbours leave no gap.
 const RAYS_EDGE = 2e-6;
 // Components of directions are no smaller.
@@ -23,11 +27,15 @@ const RAYS_UNTIL = 0.99999;
 // The share of light below which nothing is left of it.
 const RAYS_LEAST_PASSING = 1e-6;
 
+// Groups that wait. A function's own would be set to 0 for each ray.
+var<private> rays_stack: array<u32, RAYS_STACK>;
+
 // The share of light, in [0, 1], that comes through to a point along a unit direction, from a light at a distance. It is stopped from the
 // front and from behind by what is opaque, and by what is blended to the share of its opacity.
 //
-// Ylitie, Karras and Laine 2017, section 4: groups of children and of triangles as bits, nearer children first. Loops are left at their ends:
-// software drivers run their bodies to there, whatever is left to do.
+// Ylitie, Karras and Laine 2017, section 4: groups of children and of triangles as bits, nearer children first; and from node to node until there
+// are triangles, then through those (Aila and Laine 2009): software drivers run all of a loop's body for all of some neighbouring pixels, as long
+// as one of them needs any of it. For the same reason loops are left at their ends: they run to there, whatever is left to do.
 fn rays_passing(p_world: vec3f, direction: vec3f, distance: f32, light: u32) -> f32 {
     let origin = (p_world - blockers_all.center) / blockers_all.unit;
     let far = distance / blockers_all.unit;
@@ -35,28 +43,39 @@ fn rays_passing(p_world: vec3f, direction: vec3f, distance: f32, light: u32) -> 
     let least = select(vec3f(-RAYS_LEAST), vec3f(RAYS_LEAST), is_up);
     let inverse = 1.0 / select(direction, least, abs(direction) < vec3f(RAYS_LEAST));
     let octant = dot(select(vec3u(0u), vec3u(4u, 2u, 1u), is_up), vec3u(1u));
-    // The first node's place and, in the upper eight bits, which of its siblings are to be visited; in the lower ones, which are nodes.
-    var stack: array<vec2u, RAYS_STACK>;
-    stack[0] = vec2u(blockers_all.roots.y, RAYS_ROOT);
+    // Of roots the slot is 0.
+    let roots = (blockers_all.roots << vec2u(RAYS_SLOT_BITS)) | vec2u(1u << octant);
+    rays_stack[0] = roots.y;
     var height = select(1, 0, blockers_all.roots.y == BLOCKERS_NONE);
-    var group = vec2u(blockers_all.roots.x, RAYS_ROOT);
+    var group = roots.x;
     var passing = 1.0;
     loop {
-        let bit = firstLeadingBit(group.y);
-        let slot = (bit - 24u) ^ octant;
-        let node = BLOCKERS_NODE * (group.x + countOneBits(group.y & ~(0xffffffffu << slot) & 0xffu));
-        group.y &= ~(1u << bit);
-        if group.y > RAYS_CHILDREN && height < RAYS_STACK {
-            stack[height] = group;
-            height++;
-        }
-        let head = blockers_node(node);
-        let base = blockers_node(node + 1u);
-        let hits = rays_children(node, head, base.zw, origin, inverse, far * RAYS_UNTIL, octant);
-        group = vec2u(base.x, (hits & ~RAYS_CHILDREN) | (head.w >> 24u));
-        var triangles = hits & RAYS_CHILDREN;
+        var triangles = 0u;
+        var first = 0u;
         loop {
-            let index = base.y + (firstTrailingBit(triangles) & 31u);
+            let bit = firstLeadingBit(group & RAYS_SLOTS);
+            let node = BLOCKERS_NODE * ((group >> RAYS_SLOT_BITS) + (bit ^ octant));
+            group ^= 1u << bit;
+            if (group & RAYS_SLOTS) != 0u && height < RAYS_STACK {
+                rays_stack[height] = group;
+                height++;
+            }
+            let head = blockers_node(node);
+            let base = blockers_node(node + 1u);
+            let hits = rays_children(node, head, base.zw, origin, inverse, far * RAYS_UNTIL, octant);
+            group = (base.x << RAYS_SLOT_BITS) | (hits >> RAYS_TRIANGLE_BITS);
+            first = base.y;
+            triangles = hits & RAYS_TRIANGLES;
+            if (group & RAYS_SLOTS) == 0u && height > 0 {
+                height--;
+                group = rays_stack[height];
+            }
+            continuing {
+                break if triangles != 0u || (group & RAYS_SLOTS) == 0u;
+            }
+        }
+        loop {
+            let index = first + (firstTrailingBit(triangles) & 31u);
             let share = rays_passing_triangle(index, origin, direction, far, light);
             passing *= select(1.0, share, triangles != 0u);
             triangles &= triangles - 1u;
@@ -64,13 +83,8 @@ fn rays_passing(p_world: vec3f, direction: vec3f, distance: f32, light: u32) -> 
                 break if triangles == 0u;
             }
         }
-        let is_stopped = passing < RAYS_LEAST_PASSING;
-        if group.y <= RAYS_CHILDREN && height > 0 && !is_stopped {
-            height--;
-            group = stack[height];
-        }
         continuing {
-            break if is_stopped || group.y <= RAYS_CHILDREN;
+            break if passing < RAYS_LEAST_PASSING || (group & RAYS_SLOTS) == 0u;
         }
     }
     return select(passing, 0.0, passing < RAYS_LEAST_PASSING);
@@ -96,16 +110,25 @@ fn rays_children(node: u32, head: vec4u, children: vec2u, origin: vec3f, inverse
 }
 
 fn rays_four(near: vec3u, far: vec3u, children: u32, scale: vec3f, start: vec3f, until: f32, octant: u32) -> u32 {
-    let enter = max(max(rays_planes(near.x, scale.x, start.x), rays_planes(near.y, scale.y, start.y)),
-        max(rays_planes(near.z, scale.z, start.z), vec4f(0.0)));
-    let leave = min(min(rays_planes(far.x, scale.x, start.x), rays_planes(far.y, scale.y, start.y)),
-        min(rays_planes(far.z, scale.z, start.z), vec4f(until)));
+    let enter = rays_greater(rays_greater(rays_planes(near.x, scale.x, start.x), rays_planes(near.y, scale.y, start.y)),
+        rays_greater(rays_planes(near.z, scale.z, start.z), vec4f(0.0)));
+    let leave = rays_smaller(rays_smaller(rays_planes(far.x, scale.x, start.x), rays_planes(far.y, scale.y, start.y)),
+        rays_smaller(rays_planes(far.z, scale.z, start.z), vec4f(until)));
     let metas = rays_bytes(children);
     // A node's number is 24 or more; a leaf's says how many triangles it has, a bit each, and where they begin.
     let is_node = (metas & vec4u(24u)) == vec4u(24u);
     let place = (metas ^ select(vec4u(0u), vec4u(octant), is_node)) & vec4u(31u);
     let bits = select(vec4u(0u), (metas >> vec4u(5u)) << place, enter <= leave);
     return bits.x | bits.y | bits.z | bits.w;
+}
+
+// Without what min and max do about NaN, of which there is none here: on software drivers that takes longer than they.
+fn rays_smaller(a: vec4f, b: vec4f) -> vec4f {
+    return select(b, a, a < b);
+}
+
+fn rays_greater(a: vec4f, b: vec4f) -> vec4f {
+    return select(b, a, a > b);
 }
 
 fn rays_bytes(word: u32) -> vec4u {

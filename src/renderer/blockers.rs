@@ -105,7 +105,7 @@ impl Gathered {
             GpuTriangle { corner, light, first_edge, opacity: record, second_edge, padding: 0 }
         };
         Tree {
-            nodes: bytemuck::pod_collect_to_vec(bvh.nodes()),
+            nodes: spread(&bytemuck::pod_collect_to_vec::<u8, [Words; 5]>(bvh.nodes())),
             triangles: bvh.primitives().par_iter().map(triangle).collect(),
         }
     }
@@ -126,9 +126,31 @@ impl Tree {
     }
 }
 
-/// The most nodes of a tree over so many triangles: each has two children or more, but the root.
+/// Moves nodes apart: a child's place is its parent's number plus its slot, of eight, so that shaders need not count which of its
+/// siblings are nodes too. Places between the first and the last of a node's children that are none stay empty.
+fn spread(nodes: &[[Words; 5]]) -> Vec<[Words; 5]> {
+    let mut spread: Vec<[Words; 5]> = nodes.first().copied().into_iter().collect();
+    let mut parents: Vec<usize> = (0..spread.len()).collect();
+    while let Some(parent) = parents.pop() {
+        let [[.., extents], [children, ..], ..] = spread[parent];
+        // `CwBvhNode` of obvhs: a bit for each slot that has a node.
+        let slots: Vec<usize> = (0..8).filter(|slot| extents >> (24 + slot) & 1 == 1).collect();
+        let (Some(&first), Some(&last)) = (slots.first(), slots.last()) else { continue };
+        let base = spread.len().saturating_sub(first);
+        spread.resize(base + last + 1, [[0; 4]; 5]);
+        spread[parent][1][0] = base as u32;
+        for (child, slot) in (children as usize..).zip(slots) {
+            spread[base + slot] = nodes[child];
+            parents.push(base + slot);
+        }
+    }
+    spread
+}
+
+/// The most places of nodes of a tree over so many triangles. Where two of a node's children are nodes, or more, there are at most
+/// eight places between them, and two triangles to each such node; where one is, one place, and one triangle.
 pub(super) fn most_nodes(triangles: usize) -> usize {
-    triangles.max(1)
+    4 * triangles + 4
 }
 
 fn mesh<'a>(drawn: &Drawn<'a>, instance: usize) -> &'a Mesh {
@@ -217,8 +239,11 @@ fn record(mesh: &Mesh, material: &Material, look: u32, corners: [u32; 3]) -> [Wo
 #[cfg(test)]
 mod tests {
     use glam::Mat4;
+    use rand::SeedableRng;
+    use rand_pcg::Pcg64;
 
     use super::*;
+    use crate::math::warp::{uniform, unit_sphere};
     use crate::scene::{Edits, Instance};
 
     /// A triangle of the last material, which is cut out, after so many that are opaque.
@@ -240,6 +265,54 @@ mod tests {
             let [[_, [_, _, _, last]]] = opacities.records[..] else { panic!("a record for each triangle") };
             let [_, [_, cutoff, ..]] = opacities.looks[(last >> 16) as usize];
             assert_eq!((f32::from_bits(cutoff), opacities.looks.len()), (0.25, 1), "after {opaque}");
+        }
+    }
+
+    /// `RAYS_STACK` of `rays.wgsl`.
+    const STACK: usize = 32;
+
+    /// Follows the nodes as `rays_passing` does, all of them: the triangles that it comes to, in order, and how many groups wait at most.
+    fn walked(nodes: &[[Words; 5]]) -> (Vec<u32>, usize) {
+        let (mut met, mut most, mut waiting) = (Vec::new(), 0, vec![(0, 0)]);
+        while let Some((place, groups)) = waiting.pop() {
+            let [children, first, metas @ ..] = nodes[place][1];
+            let metas: [u8; 8] = bytemuck::cast(metas);
+            // While one child is gone through, the others wait.
+            let groups = groups + usize::from(metas.iter().filter(|&&meta| meta & 31 >= 24).count() > 1);
+            most = groups.max(most);
+            for (slot, meta) in metas.into_iter().enumerate() {
+                match meta & 31 {
+                    24.. => waiting.push((children as usize + slot, groups)),
+                    at => met.extend((0..(meta >> 5).count_ones()).map(|index| first + u32::from(at) + index)),
+                }
+            }
+        }
+        met.sort_unstable();
+        (met, most)
+    }
+
+    /// Triangles everywhere; and each a little smaller than the one around it, down to what `f64` tells apart.
+    #[test]
+    fn all_triangles_are_found_in_the_room_that_there_is() {
+        let mut rng = Pcg64::seed_from_u64(4);
+        let mut corners = |center: DVec3, size: f64| [0; 3].map(|_| center + size * unit_sphere(&mut rng));
+        let mut everywhere = Pcg64::seed_from_u64(5);
+        for count in [1, 2, 3, 9, 25, 60, 400, 5000] {
+            let spread_out = (0..count).map(|_| unit_sphere(&mut everywhere) * uniform(&mut everywhere));
+            let spread_out: Vec<[DVec3; 3]> = spread_out.map(|center| corners(center, 0.02)).collect();
+            let nested = |ratio: f64| -> Vec<[DVec3; 3]> {
+                (0..count).map(|at| [DVec3::X, DVec3::Y, -DVec3::ONE].map(|corner| corner * ratio.powi(at))).collect()
+            };
+            for corners in [spread_out, nested(0.5), nested(0.9), nested(0.99)] {
+                let triangles = corners.into_iter().zip(0..).map(|(corners, index)| Triangle::new(corners, 0, index));
+                let bvh = Bvh::new(triangles.collect());
+                let nodes = spread(&bytemuck::pod_collect_to_vec::<u8, [Words; 5]>(bvh.nodes()));
+                let (met, groups) = walked(&nodes);
+                assert!(met.into_iter().eq(0..count as u32), "{count}");
+                assert!(nodes.len() <= most_nodes(count as usize), "{} of {count}", nodes.len());
+                // One of them may be the other tree's root.
+                assert!(groups < STACK, "{groups} of {count}");
+            }
         }
     }
 }

@@ -184,6 +184,8 @@ fn lack_of_rows(limits: &Limits, rows: usize) -> Option<String> {
     })
 }
 
+/// Of `blockers_nodes`.
+const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const WITHOUT: &str = "the picture is drawn without shadows";
 /// `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
 const ROW: usize = 1 << 13;
@@ -274,8 +276,8 @@ fn numbers(device: &Device, rows: usize) -> Texture {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Uint,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        format: NUMBERS,
+        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })
 }
@@ -338,10 +340,16 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, TextureSampleType, TextureViewDimension};
     let blockers =
         BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
-    let texture =
-        |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
-    let numbers = texture(TextureSampleType::Uint, TextureViewDimension::D2);
-    let alphas = texture(TextureSampleType::Float { filterable: false }, TextureViewDimension::D2Array);
+    let numbers = BindingType::StorageTexture {
+        access: wgpu::StorageTextureAccess::ReadOnly,
+        format: NUMBERS,
+        view_dimension: TextureViewDimension::D2,
+    };
+    let alphas = BindingType::Texture {
+        sample_type: TextureSampleType::Float { filterable: false },
+        view_dimension: TextureViewDimension::D2Array,
+        multisampled: false,
+    };
     let types = [blockers, numbers, alphas];
     let entry =
         |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None };

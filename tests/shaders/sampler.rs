@@ -256,7 +256,7 @@ fn wrong_samplers_are_found_out() {
         // Uniform in the radius; no steps; no side along the horizon; wedges taken for sectors; in the wrong order of areas.
         ("let inward = number *", "let inward = number * number *"),
         ("LTC_SAMPLE_STEPS = 3u", "LTC_SAMPLE_STEPS = 0u"),
-        ("else if any(fan.reached != start)", "else if false"),
+        ("is_edge = all(fan.reached == start)", "is_edge = true"),
         ("let is_around = !any(below);", "let is_around = true;"),
         ("fan.left -= area;", "fan.left -= 0.9 * area;"),
         ("left = share * (area +", "left = share * (0.9 * area +"),
