@@ -38,23 +38,31 @@ fn patterns_seen(receiver: Receiver, polygon: u32, directions: LobesVectors) -> 
     var seen = PATTERNS_PLAIN;
     if VARIANT_PATTERNS && polygons_lights[polygon].pattern != PATTERNS_NONE {
         let sheet = patterns_sheets[polygons_lights[polygon].pattern];
-        let most = polygons_lights[polygon].pattern_texels;
-        seen.diffuse = patterns_lobe(receiver, sheet, LOBES_DIFFUSE, directions.diffuse, most);
-        if VARIANT_SPECULAR {
-            seen.specular = patterns_lobe(receiver, sheet, receiver.lobes.specular.m_inv, directions.specular, most);
-        }
-        if VARIANT_SHEEN && !VARIANT_PRIOR_SHEEN {
-            seen.sheen = patterns_lobe(receiver, sheet, receiver.lobes.sheen.m_inv, directions.sheen, most);
+        // Lobe by lobe, in a loop: drivers take their time over code that stands there several times, also where it is then left out.
+        var m_inv = LOBES_DIFFUSE;
+        var direction = directions.diffuse;
+        for (var lobe = 0u; lobe < 3u; lobe++) {
+            var place = patterns_place(receiver, sheet, m_inv, direction);
+            place.texels = min(place.texels, polygons_lights[polygon].pattern_texels);
+            let factor = patterns_filtered(sheet, place);
+            switch lobe {
+                case 0u: {
+                    seen.diffuse = factor;
+                    m_inv = receiver.lobes.specular.m_inv;
+                    direction = directions.specular;
+                }
+                case 1u: {
+                    seen.specular = factor;
+                    m_inv = receiver.lobes.sheen.m_inv;
+                    direction = directions.sheen;
+                }
+                default: {
+                    seen.sheen = factor;
+                }
+            }
         }
     }
     return seen;
-}
-
-// What a lobe sees that looks in a direction of its space, of so many texels at most.
-fn patterns_lobe(receiver: Receiver, sheet: PatternsSheet, m_inv: mat3x3f, direction: vec3f, most: f32) -> vec3f {
-    var place = patterns_place(receiver, sheet, m_inv, direction);
-    place.texels = min(place.texels, most);
-    return patterns_filtered(sheet, place);
 }
 
 // The factor of a light's radiance where a direction of the local frame meets it.

@@ -2,7 +2,7 @@
 
 use std::task::{Context, Poll, Waker};
 
-use wgpu::{Adapter, Backends, Device, DownlevelFlags, Instance, InstanceDescriptor, Queue, Surface};
+use wgpu::{Adapter, Backends, Device, DownlevelFlags, Instance, InstanceDescriptor, InstanceFlags, Queue, Surface};
 
 use super::targets::RadianceFormat;
 
@@ -77,12 +77,22 @@ pub const BACKENDS: [Backends; 2] = [Backends::PRIMARY, Backends::SECONDARY];
 
 /// The entry to the drivers of some backends.
 pub fn instance(backends: Backends) -> Instance {
-    Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_without_display_handle() })
+    Instance::new(InstanceDescriptor { backends, flags: flags(), ..InstanceDescriptor::new_without_display_handle() })
 }
 
 /// The same for a window on the given `display`.
 pub fn instance_for_window(backends: Backends, display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>) -> Instance {
-    Instance::new(InstanceDescriptor { backends, ..InstanceDescriptor::new_with_display_handle(display) })
+    Instance::new(InstanceDescriptor {
+        backends,
+        flags: flags(),
+        ..InstanceDescriptor::new_with_display_handle(display)
+    })
+}
+
+/// Those of the kind of build but for shaders' debug information: to find the line of each of their statements, wgpu searches the
+/// whole source, in every pipeline anew.
+fn flags() -> InstanceFlags {
+    InstanceFlags::default().difference(InstanceFlags::DEBUG)
 }
 
 /// The adapters of an instance, the one that is taken where none is asked for first: hardware before software.

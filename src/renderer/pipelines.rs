@@ -1,10 +1,13 @@
 //! The pipelines of the surfaces' pass: one for each variant that a scene needs.
 
+use std::cell::OnceCell;
+
 use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, TextureFormat, VertexBufferLayout, VertexFormat};
 
 use super::draws::{Attributes, Variant};
 use super::materials::Look;
 use super::prior_sheens::NODES;
+use super::shader::{SHADOWED_WGSL, SURFACES_WGSL};
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
 
 /// What of the scene a pipeline draws.
@@ -25,7 +28,7 @@ pub(super) enum Stage {
 
 /// What all pipelines of the pass have in common.
 pub(super) struct Pipelines {
-    pub shader: ShaderModule,
+    pub shaders: Shaders,
     pub layout: PipelineLayout,
     /// With what stands in the way of light.
     pub shadowed_layout: PipelineLayout,
@@ -34,18 +37,45 @@ pub(super) struct Pipelines {
     pub guide: Option<TextureFormat>,
 }
 
+/// Modules, each compiled when it is needed first.
+#[derive(Default)]
+pub(super) struct Shaders {
+    surfaces: OnceCell<ShaderModule>,
+    shadowed: OnceCell<ShaderModule>,
+}
+
+impl Shaders {
+    /// Without shadows.
+    pub fn surfaces(&self, device: &Device) -> &ShaderModule {
+        self.surfaces.get_or_init(|| module(device, "surfaces", SURFACES_WGSL))
+    }
+
+    fn shadowed(&self, device: &Device) -> &ShaderModule {
+        self.shadowed.get_or_init(|| module(device, "surfaces with shadows", SHADOWED_WGSL))
+    }
+}
+
+fn module(device: &Device, label: &str, source: &'static str) -> ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(source.into());
+    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
+}
+
 impl Pipelines {
     /// The pipeline of a variant; `culled` are the faces that it leaves out.
     pub fn make(&self, device: &Device, variant: &Variant, stage: Stage, culled: Option<wgpu::Face>) -> RenderPipeline {
         let Variant { look, attributes, mirrored, .. } = *variant;
         let samples = if stage == Stage::Unshadowed { self.radiance.samples } else { 1 };
+        let shader = match stage {
+            Stage::Unshadowed => self.shaders.surfaces(device),
+            Stage::Depth | Stage::Shadowed { .. } => self.shaders.shadowed(device),
+        };
         let constants = self.constants(variant, stage, samples);
         let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let vertex = if attributes.any { "vertices_textured" } else { "vertices_plain" };
         let layouts = vertex_layouts(attributes);
         let targets = self.targets(look, stage);
         let fragment = fragment(variant, stage, samples).map(|entry_point| wgpu::FragmentState {
-            module: &self.shader,
+            module: shader,
             entry_point: Some(entry_point),
             compilation_options: compilation_options.clone(),
             targets: &targets,
@@ -57,7 +87,7 @@ impl Pipelines {
             label: Some("surfaces"),
             layout: Some(if is_shadowed { &self.shadowed_layout } else { &self.layout }),
             vertex: wgpu::VertexState {
-                module: &self.shader,
+                module: shader,
                 entry_point: Some(vertex),
                 compilation_options,
                 buffers: &layouts[..if attributes.any { layouts.len() } else { 2 }],

@@ -360,7 +360,7 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
-    use super::super::shader::SURFACES_WGSL;
+    use super::super::shader::SHADOWED_WGSL;
     use super::*;
     use crate::scene::{Edits, Material, Mesh, Scene};
 
@@ -394,6 +394,6 @@ mod tests {
     #[test]
     fn trees_stand_as_the_shader_reads_them() {
         let members = members!(GpuBlockers { center, unit, roots, first_look, first_triangle });
-        assert_eq!(differences(SURFACES_WGSL, "Blockers", size_of::<GpuBlockers>(), members), [""; 0]);
+        assert_eq!(differences(SHADOWED_WGSL, "Blockers", size_of::<GpuBlockers>(), members), [""; 0]);
     }
 }

@@ -10,11 +10,10 @@ use super::Gpu;
 use super::blended::Blended;
 use super::calls::{Call, Draw, Source, split};
 use super::draws::{Frustum, Variant};
-use super::pipelines::{Pipelines, Stage};
+use super::pipelines::{Pipelines, Shaders, Stage};
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
 use super::sample::Sample;
-use super::shader::SURFACES_WGSL;
 use super::targets::{RadianceFormat, ShadowedTargets, Targets};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
@@ -65,10 +64,6 @@ impl SurfacesPass {
         resident: &Resident,
     ) -> Self {
         let device = &gpu.device;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("surfaces"),
-            source: wgpu::ShaderSource::Wgsl(SURFACES_WGSL.into()),
-        });
         let frame = [0; size_of::<Frame>()];
         let frame = TrackedBuffer::new(device, "surfaces frame", &frame, BufferUsages::UNIFORM);
         let layout = bind_group_layout(device);
@@ -86,7 +81,8 @@ impl SurfacesPass {
         let albedos = PriorAlbedos::new(device);
         let tables = [tables::sheen(gpu, table), tables::ggx(gpu), albedos.view()];
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
-        let pipelines = Pipelines { shader, layout: pipeline_layout, shadowed_layout, radiance, guide };
+        let pipelines =
+            Pipelines { shaders: Shaders::default(), layout: pipeline_layout, shadowed_layout, radiance, guide };
         let is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let triangles_a_pass = if is_software { TRIANGLES_A_PASS } else { u32::MAX };
         let made = HashMap::new();
@@ -96,7 +92,7 @@ impl SurfacesPass {
     /// Makes what the scene needs for these stages and does not have yet: pipelines, and the table of the other sheens' albedos.
     pub(super) fn prepare(&mut self, gpu: &Gpu, resident: &Resident, stages: &[Stage]) {
         if resident.draws.samples_lights() {
-            self.albedos.fill(gpu, &self.pipelines.shader);
+            self.albedos.fill(gpu, self.pipelines.shaders.surfaces(&gpu.device));
         }
         for batch in &resident.draws.batches {
             let culled = (!batch.variant.look.double_sided).then_some(Face::Back);
@@ -346,6 +342,7 @@ fn bind_group(
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
+    use super::super::shader::SURFACES_WGSL;
     use super::*;
 
     #[test]

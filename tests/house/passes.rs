@@ -42,6 +42,8 @@ pub const FLOORS: [&[&str]; 22] = [
     &["passes/lights"],
     // All of it together.
     &["passes/shading"],
+    // Entry points.
+    &["passes/surfaces", "passes/prior_albedos"],
     // What stands in the way of light,
     &["passes/blockers"],
     // rays through it,
@@ -50,9 +52,7 @@ pub const FLOORS: [&[&str]; 22] = [
     &["passes/samples"],
     // what is blocked.
     &["passes/shadows"],
-    // Entry points,
-    &["passes/surfaces", "passes/prior_albedos"],
-    // and those with shadows.
+    // Entry points.
     &["passes/shadowed"],
 ];
 

@@ -141,7 +141,7 @@ fn uneven_windows_converge_to_their_texels() {
         let errors = |picture: LinearImage| errors(&picture, &expected);
         let plain = errors(without_shadows(&case));
         let [some, many] = [16, 1024].map(|samples| errors(pictured(&case, SIZE, centred(samples, 2))));
-        assert!(plain[0] < 0.05 && plain[0] > 2.0 * many[0], "{plain:?} {some:?} {many:?}");
+        assert!(plain[0] < 0.08 && plain[0] > 2.0 * many[0], "{plain:?} {some:?} {many:?}");
         assert!(many[0] < 0.02 && many[1].abs() < 1e-3, "{plain:?} {some:?} {many:?}");
         // To a slope of -0.45 at least.
         assert!(many[0] < some[0] * 64.0_f64.powf(-0.45), "{plain:?} {some:?} {many:?}");

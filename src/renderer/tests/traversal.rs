@@ -7,7 +7,7 @@ use wgpu::util::DeviceExt;
 use wgpu::{BindGroupLayout, BufferUsages, ComputePipeline};
 
 use super::super::device::{self, Gpu};
-use super::super::shader::SURFACES_WGSL;
+use super::super::shader::SHADOWED_WGSL;
 use super::super::shadows::Shadows;
 use crate::math::warp::unit_sphere;
 use crate::scene::{
@@ -76,7 +76,7 @@ impl Device {
         let gpu = pollster::block_on(device::open_offscreen(None)).expect("this test needs a device");
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("traversal"),
-            source: wgpu::ShaderSource::Wgsl([SURFACES_WGSL, ENTRY].concat().into()),
+            source: wgpu::ShaderSource::Wgsl([SHADOWED_WGSL, ENTRY].concat().into()),
         });
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("traversal"),
