@@ -176,12 +176,18 @@ fn lack(limits: &Limits, drawn: &Drawn) -> Option<String> {
     })
 }
 
-/// The same of trees that are built, which take so many rows.
-fn lack_of_rows(limits: &Limits, rows: usize) -> Option<String> {
+/// The same of trees that are built, which take so many rows for nodes and for triangles.
+fn lack_of_rows(limits: &Limits, [nodes, triangles]: [usize; 2]) -> Option<String> {
     let most = limits.max_texture_dimension_2d as usize;
-    (rows > most).then(|| {
-        format!("what casts shadows takes {rows} rows, of at most {most} that the adapter holds: {WITHOUT}; simplify the scene")
-    })
+    let said = |rows: usize, most: usize| {
+        format!(
+            "what casts shadows takes {rows} rows, of at most {most} that there is room for: {WITHOUT}; simplify the scene"
+        )
+    };
+    if nodes > NODE_ROWS {
+        return Some(said(nodes, NODE_ROWS));
+    }
+    (nodes + triangles > most).then(|| said(nodes + triangles, most))
 }
 
 /// Of `blockers_nodes`.
@@ -189,6 +195,8 @@ const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const WITHOUT: &str = "the picture is drawn without shadows";
 /// `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
 const ROW: usize = 1 << 13;
+/// The most rows of nodes: `rays.wgsl` keeps a node's number in 24 bits.
+const NODE_ROWS: usize = (NODE << 24) / ROW;
 /// Texels of a node, of a triangle, and of what says how one lets light through.
 const NODE: usize = 5;
 const TRIANGLE: usize = 3;
@@ -210,7 +218,7 @@ impl ResidentTrees {
         let first_look = first_record + OPACITY * opacities.records.len();
         let texels = [first_look + OPACITY * opacities.looks.len(), first_triangle + TRIANGLE * others.triangles.len()];
         let [node_rows, triangle_rows] = texels.map(rows);
-        if let Some(lack) = lack_of_rows(&device.limits(), node_rows + triangle_rows) {
+        if let Some(lack) = lack_of_rows(&device.limits(), [node_rows, triangle_rows]) {
             return Err(lack);
         }
         others.place(root / NODE, first_triangle / TRIANGLE, first_record);
@@ -387,8 +395,10 @@ mod tests {
         assert_eq!(said(2 * ROW, &crowd(224, 1)), None);
         hint(said(ROW - 1, &crowd(1, 1)), "textures have 8191 texels a side");
         hint(said(ROW, &crowd(1, MOST_LOOKS + 1)), "65537 materials are cut out or blended");
-        assert_eq!(lack_of_rows(&limits(ROW), ROW), None);
-        hint(lack_of_rows(&limits(ROW), ROW + 1), "takes 8193 rows");
+        assert_eq!(lack_of_rows(&limits(ROW), [100, ROW - 100]), None);
+        hint(lack_of_rows(&limits(ROW), [100, ROW - 99]), "takes 8193 rows");
+        assert_eq!(lack_of_rows(&limits(2 * ROW), [NODE_ROWS, 0]), None);
+        hint(lack_of_rows(&limits(2 * ROW), [NODE_ROWS + 1, 0]), "takes 10241 rows");
     }
 
     #[test]
