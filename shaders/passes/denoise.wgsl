@@ -10,12 +10,13 @@ override DENOISE_AGAIN: bool = false;
 const DENOISE_SLOPE = 0.1;
 // and the farther their normals are apart: a power of the cosine.
 const DENOISE_POWER = 64.0;
-// A sample may leave more than there is, by noise.
-const DENOISE_MOST = 1.2;
 
 struct DenoiseUniforms {
     // How much neighbours count, in [0, 1]: the less, the more samples there are.
     neighbours: f32,
+    // Of the share that is left. By noise a sample may leave more than there is: under lights that vary, much more, or less than nothing.
+    least: f32,
+    most: f32,
 }
 
 @group(0) @binding(0) var<uniform> denoise_uniforms: DenoiseUniforms;
@@ -86,6 +87,6 @@ fn denoise_at(pixel: vec2i) -> vec3f {
     }
     let radiance = textureLoad(denoise_mean_radiance, pixel, 0).rgb;
     let left = radiance - textureLoad(denoise_mean_blocked, pixel, 0).rgb;
-    let share = clamp(left / max(radiance, vec3f(1e-30)), vec3f(0.0), vec3f(DENOISE_MOST));
+    let share = clamp(left / max(radiance, vec3f(1e-30)), vec3f(denoise_uniforms.least), vec3f(denoise_uniforms.most));
     return select(vec3f(1.0), share, radiance > vec3f(0.0));
 }

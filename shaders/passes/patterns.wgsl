@@ -93,7 +93,8 @@ fn patterns_place(receiver: Receiver, sheet: PatternsSheet, m_inv: mat3x3f, dire
     let column = lobe_from_world * sheet.column;
     let normal = cross(row, column);
     let slope = dot(normal, direction);
-    let way = select(0.0, dot(normal, origin) / slope, slope != 0.0) * direction;
+    // Where they hardly meet it is far off, but not so far that it is infinite.
+    let way = clamp(select(0.0, dot(normal, origin) / slope, slope != 0.0) * direction, vec3f(-1e9), vec3f(1e9));
     return patterns_place_of(sheet, way - origin, row, column, PATTERNS_SEEN * dot(way, way));
 }
 
@@ -101,7 +102,7 @@ fn patterns_place(receiver: Receiver, sheet: PatternsSheet, m_inv: mat3x3f, dire
 fn patterns_place_of(sheet: PatternsSheet, arm: vec3f, row: vec3f, column: vec3f, area: f32) -> PatternsPlace {
     let normal = cross(row, column);
     let square = max(dot(normal, normal), 1e-37);
-    let shares = vec2f(dot(arm, cross(column, normal)), dot(arm, cross(normal, row))) / square;
+    let shares = vec2f(dot(arm, cross(column, normal) / square), dot(arm, cross(normal, row) / square));
     let size = vec2f(f32(sheet.columns), f32(sheet.rows));
     return PatternsPlace(clamp(shares, vec2f(-1.0), vec2f(2.0)) * size, area * size.x * size.y * inverseSqrt(square));
 }

@@ -17,7 +17,7 @@ struct PolygonsLight {
     // Its convex parts, as outlines of polygons_vertices.
     first_part_vertex: u32,
     end_part_vertex: u32,
-    // In patterns_sheets, else PATTERNS_NONE; and how many of its texels are on the polygon.
+    // In patterns_sheets, else PATTERNS_NONE; and how many texels there are in the rectangle of it that is shown.
     pattern: u32,
     pattern_texels: f32,
 }
@@ -58,7 +58,7 @@ struct PolygonsCut {
 // What a light is to a receiver.
 struct PolygonsIntegrals {
     form_factors: LobesScalars,
-    // Of any length.
+    // As ltc_vector has them: their z are the form factors.
     directions: LobesVectors,
     // Of the light's directions, weighted by the cosine.
     mean_cosine: f32,

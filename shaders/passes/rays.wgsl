@@ -122,7 +122,7 @@ fn rays_four(near: vec3u, far: vec3u, children: u32, scale: vec3f, start: vec3f,
     return bits.x | bits.y | bits.z | bits.w;
 }
 
-// Without what min and max do about NaN, of which there is none here: on software drivers that takes longer than they.
+// Without what min and max do about NaN, of which there is none but in rays that go nowhere, and those meet nothing: on software drivers that takes longer than they.
 fn rays_smaller(a: vec4f, b: vec4f) -> vec4f {
     return select(b, a, a < b);
 }

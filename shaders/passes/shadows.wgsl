@@ -16,10 +16,10 @@ struct ShadowsOrigin {
     apart: f32,
 }
 
-// Rounding, as a share of what positions are computed from, and of half the scene's size, from which the trees' coordinates are.
+// Rounding, as a share of what positions are computed from, and of half the scene's size: where a ray meets a triangle is known to a share of the triangle's.
 const SHADOWS_ROUNDING = 4e-6;
 const SHADOWS_ROUNDING_OF_SCENE = 2e-7;
-// But no more of the latter than that share of the distance to the camera, which is about a pixel: where one thing is far larger than what is looked at,
+// But no more of the latter than this share of the distance to the camera, which is about a pixel: where one thing is far larger than what is looked at,
 // rays would start beyond that.
 const SHADOWS_ROUNDING_MOST = 1e-3;
 

@@ -8,6 +8,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
+use super::numbers::Words;
 use crate::bvh::{Bvh, Triangle};
 use crate::scene::{AlphaMode, Drawn, Filter, Material, Mesh, Sampler, Scene, TextureSlot, Wrap};
 
@@ -28,9 +29,6 @@ pub(super) struct GpuTriangle {
     second_edge: Vec3,
     padding: u32,
 }
-
-/// Sixteen bytes of `blockers_nodes`.
-pub(super) type Words = [u32; 4];
 
 /// A tree as the shaders read it.
 pub(super) struct Tree {

@@ -40,7 +40,12 @@ fn neighbours(samples: u32) -> f32 {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
     neighbours: f32,
+    least: f32,
+    most: f32,
 }
+
+/// Between what the share that is left lies, after some samples, under lights that do not vary and under such that do.
+const SHARES: [[f32; 2]; 2] = [[0.0, 1.2], [-7.0, 8.0]];
 
 pub(super) struct DenoisePass {
     layout: BindGroupLayout,
@@ -81,14 +86,16 @@ impl DenoisePass {
     }
 
     /// Filters the shares of the means of so many samples, by the guide; what the last of the passes leaves, if there are any.
+    /// `varied`: lights have patterns.
     pub fn encode<'a>(
         &mut self,
         (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
-        (means, samples, guide): (&Means, u32, &TextureView),
+        (means, samples, guide, varied): (&Means, u32, &TextureView, bool),
         shares: &'a Shares,
     ) -> Option<&'a TextureView> {
-        let uniforms = Uniforms { neighbours: neighbours(samples) };
+        let [least, most] = SHARES[usize::from(varied)];
+        let uniforms = Uniforms { neighbours: neighbours(samples), least, most };
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
         let mut last = None;
         for index in 0..passes(samples) {
@@ -109,7 +116,7 @@ mod tests {
 
     #[test]
     fn the_uniforms_stand_as_the_shader_reads_them() {
-        let members = members!(Uniforms { neighbours });
+        let members = members!(Uniforms { neighbours, least, most });
         assert_eq!(differences(DENOISE_WGSL, "DenoiseUniforms", size_of::<Uniforms>(), members), [""; 0]);
     }
 

@@ -89,8 +89,8 @@ pub fn instance_for_window(backends: Backends, display: Box<dyn wgpu::wgt::WgpuH
     })
 }
 
-/// Those of the kind of build but for shaders' debug information: to find the line of each of their statements, wgpu searches the
-/// whole source, in every pipeline anew.
+/// wgpu's own for this kind of build, but without debug information in shaders: for that it searches the whole source for each
+/// statement's line, in every pipeline anew.
 fn flags() -> InstanceFlags {
     InstanceFlags::default().difference(InstanceFlags::DEBUG)
 }
@@ -159,8 +159,10 @@ pub async fn open(
 /// The limits that a device must have to draw scenes.
 pub fn needed_limits() -> wgpu::Limits {
     wgpu::Limits {
-        // Materials, and four of the lights.
-        max_storage_buffers_per_shader_stage: 5,
+        // Materials, and six of the lights.
+        max_storage_buffers_per_shader_stage: 7,
+        // What stands in the way of light.
+        max_storage_textures_per_shader_stage: 1,
         // Larger scenes need more, and say so.
         max_storage_buffer_binding_size: 1 << 24,
         ..wgpu::Limits::downlevel_webgl2_defaults()
@@ -258,6 +260,6 @@ mod tests {
         assert!(fragment.is_some_and(|lack| lack.contains("fragment")));
         let few = wgpu::Limits { max_storage_buffers_per_shader_stage: 4, ..enough };
         let lack = lack_of_buffers(all, &few).unwrap();
-        assert_eq!(lack, "its max_storage_buffers_per_shader_stage is 4, of 5 needed");
+        assert_eq!(lack, "its max_storage_buffers_per_shader_stage is 4, of 7 needed");
     }
 }

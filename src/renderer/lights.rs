@@ -92,9 +92,9 @@ impl GpuLights {
         let mut sheets = Vec::new();
         // Black lights contribute nothing and are left out.
         let lit = || drawn.lights.iter().enumerate().filter(|(_, light)| light.radiance != Vec3::ZERO);
-        let all = lit().flat_map(|(index, light)| light.polygons.iter().map(move |polygon| (index, polygon)));
-        let pieces = all.flat_map(|(index, polygon)| {
-            patterns.shown(polygon, &mut sheets).into_iter().map(move |shown| (index, shown))
+        let all = lit().flat_map(|(index, light)| (0..).zip(&light.polygons).map(move |(at, of)| ([index, at], of)));
+        let pieces = all.flat_map(|(indices, polygon)| {
+            patterns.shown(indices, polygon, &mut sheets).into_iter().map(move |shown| (indices[0], shown))
         });
         let pieces: Vec<(usize, Shown)> = pieces.collect();
         let mut add = |quads: bool| {

@@ -16,9 +16,11 @@ mod draws;
 mod fullscreen;
 #[cfg(test)]
 mod layout;
+mod levels;
 mod lights;
 mod materials;
 mod meter;
+mod numbers;
 mod offscreen;
 pub mod paint_order;
 mod patterns;
@@ -239,7 +241,7 @@ impl Renderer {
         showing: Showing,
     ) {
         if self.is_shadowed {
-            self.shadowed.show(gpu, encoder, output, showing);
+            self.shadowed.show(gpu, encoder, output, (showing, self.resident.has_patterns));
         } else if let Some(targets) = &self.targets {
             let drawn = display::Drawn::Targets(targets);
             self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);

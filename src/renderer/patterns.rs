@@ -1,14 +1,14 @@
 //! Patterns of textured lights as the shaders read them.
 
 use std::borrow::Cow;
-use std::iter::successors;
-use std::sync::Arc;
+use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
+use super::levels::levels;
 use super::pieces::{Piece, pieces};
-use crate::scene::{Drawn, Pattern, PatternImage, Polygon};
+use crate::scene::{Drawn, Pattern, Polygon};
 
 /// `PatternsSheet` of `patterns.wgsl`.
 #[repr(C)]
@@ -44,14 +44,14 @@ const EVEN_PIECES: usize = 64;
 
 /// What the textured lights of a scene show, as often as it is drawn.
 pub(super) struct Patterns {
-    held: Vec<Held>,
+    /// By light and polygon: what a polygon's image is cut into depends on both.
+    held: HashMap<[usize; 2], Held>,
     texels: Vec<f32>,
     /// The most pieces of each, and where all are even.
     most: [usize; 2],
 }
 
 struct Held {
-    image: Arc<PatternImage>,
     first_texel: u32,
     pieces: Vec<Piece>,
 }
@@ -60,9 +60,10 @@ impl Patterns {
     /// Of a scene, still without any.
     pub fn new(drawn: &Drawn) -> Self {
         let polygons = drawn.scene.lights.iter().flat_map(|light| &light.polygons);
-        let count = polygons.filter(|polygon| polygon.pattern.is_some()).count();
+        let is_varied = |pattern: &Pattern| pattern.image.size != [1, 1];
+        let count = polygons.filter(|polygon| polygon.pattern.as_ref().is_some_and(is_varied)).count();
         let most = [PIECES, EVEN_PIECES].map(|pieces| (pieces / count.max(1)).max(1));
-        Self { held: Vec::new(), texels: Vec::new(), most }
+        Self { held: HashMap::new(), texels: Vec::new(), most }
     }
 
     /// All texels of all levels, three numbers each.
@@ -70,13 +71,19 @@ impl Patterns {
         &self.texels
     }
 
-    /// A polygon, or its pieces, of which those that are not even go by a sheet that is added to the others.
-    pub fn shown<'a>(&mut self, polygon: &'a Polygon, sheets: &mut Vec<GpuSheet>) -> Vec<Shown<'a>> {
+    /// A polygon, the same in each picture for these indices but for where it is, or its pieces, of which those that are not
+    /// even go by a sheet that is added to the others.
+    pub fn shown<'a>(
+        &mut self,
+        indices: [usize; 2],
+        polygon: &'a Polygon,
+        sheets: &mut Vec<GpuSheet>,
+    ) -> Vec<Shown<'a>> {
         let Some(pattern) = &polygon.pattern else {
             let polygon = Cow::Borrowed(polygon);
             return vec![Shown { polygon, factor: Vec3::ONE, pattern: NONE, texels: 0.0, share: 1.0 }];
         };
-        let Held { first_texel, ref pieces, .. } = *self.of(polygon, pattern);
+        let Held { first_texel, ref pieces, .. } = *self.of(indices, polygon, pattern);
         let ([row, column], [columns, rows]) = (pattern.axes, pattern.image.size);
         let number = sheets.len() as u32;
         let grid = pattern.grid(|point| point);
@@ -104,9 +111,8 @@ impl Patterns {
     }
 
     /// What is held of a polygon's image, which is taken in where it is new.
-    fn of(&mut self, polygon: &Polygon, pattern: &Pattern) -> &Held {
-        let found = self.held.iter().position(|held| Arc::ptr_eq(&held.image, &pattern.image));
-        let index = found.unwrap_or_else(|| {
+    fn of(&mut self, indices: [usize; 2], polygon: &Polygon, pattern: &Pattern) -> &Held {
+        self.held.entry(indices).or_insert_with(|| {
             let parts = polygon.convex_parts();
             let levels = levels(&parts, pattern);
             // Others stay whole.
@@ -117,72 +123,19 @@ impl Patterns {
             let pieces = if even.iter().all(|piece| piece.even.is_some()) { even } else { cut(few) };
             let first_texel = self.texels.len() as u32 / 3;
             self.texels.extend(levels.iter().flatten().flat_map(|texel| texel.mean.as_vec3().to_array()));
-            self.held.push(Held { image: pattern.image.clone(), first_texel, pieces });
-            self.held.len() - 1
-        });
-        &self.held[index]
+            Held { first_texel, pieces }
+        })
     }
-}
-
-/// What a texel of a level shows.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Texel {
-    /// Over what of the polygon lies in it.
-    pub mean: DVec3,
-    /// Of that, square metres.
-    pub area: f64,
-}
-
-/// The sizes of an image's levels, down to a single texel.
-fn sizes(finest: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
-    successors(Some(finest), |size| (*size != [1, 1]).then(|| size.map(|count| count.div_ceil(2))))
-}
-
-/// An image and its mipmaps: means over the polygon of these convex parts alone, so that what is beside it does not
-/// darken its edges. Texels in which nothing of it lies have the mean of the coarser one around them.
-fn levels(parts: &[Vec<DVec3>], pattern: &Pattern) -> Vec<Vec<Texel>> {
-    let sizes: Vec<[u32; 2]> = sizes(pattern.image.size).collect();
-    let of = |value: &Vec3| Texel { mean: value.as_dvec3(), area: 0.0 };
-    let mut finest: Vec<Texel> = pattern.image.texels.iter().map(of).collect();
-    let grid = pattern.grid(|point| point);
-    for (cell, area) in parts.iter().flat_map(|part| grid.areas(part)) {
-        finest[cell].area += area;
-    }
-    let mut levels = vec![finest];
-    for pair in sizes.windows(2) {
-        let coarser = coarser(&levels[levels.len() - 1], [pair[0], pair[1]]);
-        levels.push(coarser);
-    }
-    for level in (1..levels.len()).rev() {
-        let (finer, coarser) = levels.split_at_mut(level);
-        let columns = [sizes[level - 1], sizes[level]].map(|[columns, _]| columns as usize);
-        for (at, texel) in finer[level - 1].iter_mut().enumerate().filter(|(_, texel)| texel.area == 0.0) {
-            let (column, row) = (at % columns[0], at / columns[0]);
-            texel.mean = coarser[0][row / 2 * columns[1] + column / 2].mean;
-        }
-    }
-    levels
-}
-
-/// The next level, given the sizes of both.
-fn coarser(finer: &[Texel], [[columns, rows], [wide, high]]: [[u32; 2]; 2]) -> Vec<Texel> {
-    let mut texels = vec![Texel::default(); (wide * high) as usize];
-    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
-        let Texel { mean, area } = finer[(row * columns + column) as usize];
-        let sum = &mut texels[(row / 2 * wide + column / 2) as usize];
-        *sum = Texel { mean: sum.mean + area * mean, area: sum.area + area };
-    }
-    for texel in texels.iter_mut().filter(|texel| texel.area > 0.0) {
-        texel.mean /= texel.area;
-    }
-    texels
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::layout::{differences, members};
+    use std::sync::Arc;
+
     use super::super::shader::SURFACES_WGSL;
     use super::*;
+    use crate::scene::PatternImage;
 
     #[test]
     fn sheets_stand_as_the_shader_reads_them() {
@@ -200,22 +153,25 @@ mod tests {
     }
 
     fn patterns(most: usize) -> Patterns {
-        Patterns { held: Vec::new(), texels: Vec::new(), most: [1, most] }
+        Patterns { held: HashMap::new(), texels: Vec::new(), most: [1, most] }
     }
 
-    /// Of the triangle 1 lies in the first cell, and 1/2 in each of its neighbours.
+    /// Of the triangle 1 lies in the first cell, and 1/2 in each of its neighbours. A square of the first cell on the same image has
+    /// levels of its own.
     #[test]
     fn levels_are_means_over_the_polygon() {
         let triangle = polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]);
+        let pattern = triangle.pattern.clone();
+        let square = Polygon { pattern, ..polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) };
         let (mut patterns, mut sheets) = (patterns(1), Vec::new());
-        for (index, polygon) in
-            [&triangle, &triangle, &polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]])].iter().enumerate()
-        {
-            let [shown] = &patterns.shown(polygon, &mut sheets)[..] else { panic!("there is one") };
-            assert_eq!((shown.pattern, shown.factor, shown.texels), (index as u32, Vec3::ONE, 6.0));
+        for (index, number) in [(4, 0), (4, 1), (7, 2)] {
+            let [shown] = &patterns.shown([0, index], &triangle, &mut sheets)[..] else { panic!("there is one") };
+            assert_eq!((shown.pattern, shown.factor, shown.texels), (number, Vec3::ONE, 6.0));
         }
-        // The same image is held once.
         assert_eq!([0, 1, 2].map(|index: usize| sheets[index].first_texel), [0, 0, 6 + 2 + 1]);
+        let [shown] = &patterns.shown([0, 5], &square, &mut sheets)[..] else { panic!("there is one") };
+        assert_eq!((shown.pattern, shown.factor), (NONE, Vec3::ONE));
+        patterns.texels.truncate(2 * 3 * (6 + 2 + 1));
         let texels: Vec<f32> = patterns.texels().iter().copied().step_by(3).collect();
         let mean = (1.0 + 0.5 * 3.0 + 0.5 * 5.0) / 2.0;
         let expected = [1.0, 3.0, mean, 5.0, mean, mean, mean, mean, mean];
@@ -230,7 +186,7 @@ mod tests {
     fn pieces_are_parts_of_the_polygon() {
         let whole = polygon(&[[-1.0, 0.0], [2.5, 0.0], [2.5, 2.0], [-1.0, 1.5]]);
         let (mut patterns, mut sheets) = (patterns(16), Vec::new());
-        let pieces = patterns.shown(&whole, &mut sheets);
+        let pieces = patterns.shown([0, 0], &whole, &mut sheets);
         assert!(sheets.is_empty() && pieces.len() == 4, "{} sheets, {} pieces", sheets.len(), pieces.len());
         let area = |polygon: &Polygon| {
             let corners = &polygon.contours[0];

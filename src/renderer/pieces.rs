@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::patterns::Texel;
+use super::levels::Texel;
 
 /// A rectangle of an image's texels, of a polygon.
 #[derive(Clone, Debug)]

@@ -41,6 +41,10 @@ pub(super) struct Resident {
     /// They are many, and seldom change.
     pub pattern_texels: TrackedBuffer,
     patterns: Patterns,
+    /// How many numbers of theirs the buffer has.
+    held: usize,
+    /// Whether lights have any.
+    pub has_patterns: bool,
     /// What stands in for attributes that a mesh lacks: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
@@ -78,7 +82,9 @@ impl Resident {
             light_points: stored(light_points)?,
             sheets: stored(sheets)?,
             pattern_texels: stored((PATTERNS, bytemuck::cast_slice(patterns.texels())))?,
+            held: patterns.texels().len(),
             patterns,
+            has_patterns: contents.lights.kinds().patterns,
             constants: device.create_buffer_init(&constants),
             material_layout,
             material_groups,
@@ -90,7 +96,6 @@ impl Resident {
     /// Uploads the present values of materials, lights and instances. Returns whether buffers were made anew, which
     /// happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
-        let texels = self.patterns.texels().len();
         let contents = Contents::new(drawn, &self.mesh_bounds, &mut self.patterns);
         self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));
         let mut grown = false;
@@ -106,10 +111,12 @@ impl Resident {
         for (buffer, stored) in buffers.into_iter().zip(contents.stored()) {
             grown |= written(gpu, buffer, stored)?;
         }
-        if self.patterns.texels().len() > texels {
+        if self.patterns.texels().len() > self.held {
             let texels = bytemuck::cast_slice(self.patterns.texels());
             grown |= written(gpu, &mut self.pattern_texels, (PATTERNS, texels))?;
+            self.held = self.patterns.texels().len();
         }
+        self.has_patterns = contents.lights.kinds().patterns;
         self.draws = contents.draws;
         Ok(grown)
     }

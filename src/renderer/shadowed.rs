@@ -104,13 +104,20 @@ impl Shadowed {
         picture.samples += 1;
     }
 
-    /// Shows the means in the rectangle `place` of the output; of few samples, shares of radiance are filtered first.
-    pub fn show(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder, output: (&TextureView, Rect), showing: Showing) {
+    /// Shows the means in the rectangle `place` of the output; of few samples, shares of radiance are filtered first. `varied`: lights
+    /// have patterns.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        output: (&TextureView, Rect),
+        (showing, varied): (Showing, bool),
+    ) {
         let Some(picture) = &self.picture else { return };
         let (means, device) = (&picture.means[0], &gpu.device);
         let guided = picture.shares.as_ref().zip(picture.targets.guide.as_ref());
         let shares = self.filter.as_mut().zip(guided).and_then(|(filter, (shares, guide))| {
-            filter.encode((device, &gpu.queue), encoder, (means, picture.samples, guide), shares)
+            filter.encode((device, &gpu.queue), encoder, (means, picture.samples, guide, varied), shares)
         });
         let drawn = Drawn::Shadowed { means, shares, size: picture.size, gain: showing.gain() / picture.gain };
         self.display.encode((device, &gpu.queue), encoder, &drawn, output, showing);

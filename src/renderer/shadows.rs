@@ -8,7 +8,8 @@ use wgpu::util::DeviceExt;
 use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Limits, Queue, ShaderStages, Texture, TextureView};
 
 use super::Gpu;
-use super::blockers::{Gathered, Kind, MOST_LOOKS, Opacities, Tree, Words, emitting_triangles, most_nodes};
+use super::blockers::{Gathered, Kind, MOST_LOOKS, Opacities, Tree, emitting_triangles, most_nodes};
+use super::numbers::{self, ROW, Words, rows};
 use super::tracked_buffer::TrackedBuffer;
 use crate::bvh::units;
 use crate::scene::{AlphaMode, Drawn, Instance};
@@ -176,8 +177,8 @@ fn lack(limits: &Limits, drawn: &Drawn) -> Option<String> {
     })
 }
 
-/// The same of trees that are built, which take so many rows for nodes and for triangles.
-fn lack_of_rows(limits: &Limits, [nodes, triangles]: [usize; 2]) -> Option<String> {
+/// The same of trees that are built, which take so many rows for nodes, and for all.
+fn lack_of_rows(limits: &Limits, [nodes, all]: [usize; 2]) -> Option<String> {
     let most = limits.max_texture_dimension_2d as usize;
     let said = |rows: usize, most: usize| {
         format!(
@@ -187,14 +188,10 @@ fn lack_of_rows(limits: &Limits, [nodes, triangles]: [usize; 2]) -> Option<Strin
     if nodes > NODE_ROWS {
         return Some(said(nodes, NODE_ROWS));
     }
-    (nodes + triangles > most).then(|| said(nodes + triangles, most))
+    (all > most).then(|| said(all, most))
 }
 
-/// Of `blockers_nodes`.
-const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const WITHOUT: &str = "the picture is drawn without shadows";
-/// `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
-const ROW: usize = 1 << 13;
 /// The most rows of nodes: `rays.wgsl` keeps a node's number in 24 bits.
 const NODE_ROWS: usize = (NODE << 24) / ROW;
 /// Texels of a node, of a triangle, and of what says how one lets light through.
@@ -218,16 +215,16 @@ impl ResidentTrees {
         let first_look = first_record + OPACITY * opacities.records.len();
         let texels = [first_look + OPACITY * opacities.looks.len(), first_triangle + TRIANGLE * others.triangles.len()];
         let [node_rows, triangle_rows] = texels.map(rows);
-        if let Some(lack) = lack_of_rows(&device.limits(), [node_rows, triangle_rows]) {
+        if let Some(lack) = lack_of_rows(&device.limits(), [rows(first_record), node_rows + triangle_rows]) {
             return Err(lack);
         }
         others.place(root / NODE, first_triangle / TRIANGLE, first_record);
-        let numbers = numbers(device, node_rows + triangle_rows);
+        let numbers = numbers::numbers(device, "blockers", node_rows + triangle_rows);
         let mut words: Vec<Words> = bytemuck::cast_vec(others.nodes);
         words.extend(opacities.records.as_flattened());
         words.extend(opacities.looks.as_flattened());
-        write(&gpu.queue, &numbers, root / ROW, words);
-        write(&gpu.queue, &numbers, node_rows + first_triangle / ROW, bytemuck::cast_vec(others.triangles));
+        numbers::write(&gpu.queue, &numbers, root / ROW, words);
+        numbers::write(&gpu.queue, &numbers, node_rows + first_triangle / ROW, bytemuck::cast_vec(others.triangles));
         let root = (root < first_record).then_some((root / NODE) as u32);
         let (roots, first_look) = ([NONE; 2], first_look as u32);
         let held = GpuBlockers {
@@ -260,8 +257,13 @@ impl ResidentTrees {
     fn replace_emitters(&mut self, queue: &Queue, mut emitters: Tree, placed: Placed) {
         emitters.place(0, 0, self.first_record);
         let moving = (!emitters.nodes.is_empty()).then_some(0);
-        write(queue, &self.numbers, 0, bytemuck::cast_vec(emitters.nodes));
-        write(queue, &self.numbers, self.held.first_triangle as usize / ROW, bytemuck::cast_vec(emitters.triangles));
+        numbers::write(queue, &self.numbers, 0, bytemuck::cast_vec(emitters.nodes));
+        numbers::write(
+            queue,
+            &self.numbers,
+            self.held.first_triangle as usize / ROW,
+            bytemuck::cast_vec(emitters.triangles),
+        );
         self.held.roots = match (self.root, moving) {
             (Some(root), moving) => [root, moving.unwrap_or(NONE)],
             (None, moving) => [moving.unwrap_or(NONE), NONE],
@@ -269,47 +271,6 @@ impl ResidentTrees {
         self.blockers.write(queue, bytemuck::bytes_of(&self.held));
         self.placed = placed;
     }
-}
-
-/// Rows of so many texels.
-fn rows(texels: usize) -> usize {
-    texels.div_ceil(ROW)
-}
-
-/// A texture of numbers in so many rows, or one.
-fn numbers(device: &Device, rows: usize) -> Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("blockers"),
-        size: wgpu::Extent3d { width: ROW as u32, height: rows.max(1) as u32, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: NUMBERS,
-        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
-}
-
-/// Writes whole rows from one on; what is beyond the texels does not count.
-fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texels: Vec<Words>) {
-    let rows = rows(texels.len());
-    if rows == 0 {
-        return;
-    }
-    texels.resize(rows * ROW, [0; 4]);
-    queue.write_texture(
-        wgpu::TexelCopyTextureInfo {
-            origin: wgpu::Origin3d { x: 0, y: first_row as u32, z: 0 },
-            ..texture.as_image_copy()
-        },
-        bytemuck::cast_slice(&texels),
-        wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some((ROW * size_of::<Words>()) as u32),
-            rows_per_image: None,
-        },
-        wgpu::Extent3d { width: ROW as u32, height: rows as u32, depth_or_array_layers: 1 },
-    );
 }
 
 /// A texture of alphas, row by row and layer by layer.
@@ -350,7 +311,7 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
         BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
     let numbers = BindingType::StorageTexture {
         access: wgpu::StorageTextureAccess::ReadOnly,
-        format: NUMBERS,
+        format: numbers::FORMAT,
         view_dimension: TextureViewDimension::D2,
     };
     let alphas = BindingType::Texture {
@@ -395,10 +356,10 @@ mod tests {
         assert_eq!(said(2 * ROW, &crowd(224, 1)), None);
         hint(said(ROW - 1, &crowd(1, 1)), "textures have 8191 texels a side");
         hint(said(ROW, &crowd(1, MOST_LOOKS + 1)), "65537 materials are cut out or blended");
-        assert_eq!(lack_of_rows(&limits(ROW), [100, ROW - 100]), None);
-        hint(lack_of_rows(&limits(ROW), [100, ROW - 99]), "takes 8193 rows");
-        assert_eq!(lack_of_rows(&limits(2 * ROW), [NODE_ROWS, 0]), None);
-        hint(lack_of_rows(&limits(2 * ROW), [NODE_ROWS + 1, 0]), "takes 10241 rows");
+        assert_eq!(lack_of_rows(&limits(ROW), [100, ROW]), None);
+        hint(lack_of_rows(&limits(ROW), [100, ROW + 1]), "takes 8193 rows");
+        assert_eq!(lack_of_rows(&limits(2 * ROW), [NODE_ROWS; 2]), None);
+        hint(lack_of_rows(&limits(2 * ROW), [NODE_ROWS + 1; 2]), "takes 10241 rows");
     }
 
     #[test]

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::{DVec3, Mat4, Vec3};
 use velour::picture::LinearImage;
-use velour::scene::{Edits, LightEdits, Material, MaterialEdits, Pattern, PatternImage, SheenModel};
+use velour::scene::{Edits, LightEdits, Material, MaterialEdits, Pattern, PatternImage, SheenModel, linear_from_srgb};
 use velour::table::SheenTable;
 
-use super::compare::{differences, moves_corners};
+use super::compare::{GPU, differences, moves_corners};
 use super::obstacles::{Case, cloth, floor};
-use super::shadows::{centred, pictured};
+use super::shadows::{centred, offscreen, pictured};
 use super::stage::{Stage, Thing, facing, glow, looking, plain};
 use super::truth::Truth;
 
@@ -141,6 +141,7 @@ fn uneven_windows_converge_to_their_texels() {
         let errors = |picture: LinearImage| errors(&picture, &expected);
         let plain = errors(without_shadows(&case));
         let [some, many] = [16, 1024].map(|samples| errors(pictured(&case, SIZE, centred(samples, 2))));
+        println!("without shadows {plain:?}, 16 samples {some:?}, 1024 {many:?}");
         assert!(plain[0] < 0.08 && plain[0] > 2.0 * many[0], "{plain:?} {some:?} {many:?}");
         assert!(many[0] < 0.02 && many[1].abs() < 1e-3, "{plain:?} {some:?} {many:?}");
         // To a slope of -0.45 at least.
@@ -183,4 +184,45 @@ fn prior_sheens_see_the_texels() {
         let [off, more] = errors(&pictured(&case, SIZE, centred(64, 1)), &expected);
         assert!(off < limit && more.abs() < 0.005, "{off} {more}");
     }
+}
+
+/// The mean of what is shown of few samples, filtered, is that of what is shown of many: nothing is cut off on the way.
+#[test]
+fn filtered_pictures_are_as_bright_as_others() {
+    let case = uneven(cloth()).case();
+    let shown = |samples: u32| {
+        let effort = centred(samples, 5);
+        let mut offscreen = offscreen(&case, true, effort);
+        let (camera, settings) = (&case.scene.cameras[0], case.edits.settings());
+        let picture = GPU.block_on(offscreen.display(&GPU, camera, SIZE, &settings)).unwrap();
+        picture.pixels.as_flattened().iter().map(|&value| f64::from(linear_from_srgb(value))).sum::<f64>()
+    };
+    let [few, many] = [shown(1), shown(256)];
+    assert!((few / many - 1.0).abs() < 0.02, "{few} {many}");
+}
+
+/// What is lit by a window in the shape of an L, from the side to which it shines and from behind one that shines both ways.
+#[test]
+fn windows_of_any_outline_show_their_texels() {
+    let mut window = uneven(cloth());
+    let is_out = |at: u32| at % 12 >= 6 && at / 12 >= 5;
+    (0..108).filter(|&at| is_out(at)).for_each(|at| window.texels[at as usize] = Vec3::ZERO);
+    let expected = window.expected();
+    let mut case = window.case();
+    let [x, y] = HALF;
+    let step = y * (10.0 / 9.0 - 1.0);
+    let corners = [[-x, -y], [x, -y], [x, step], [0.0, step], [0.0, y], [-x, y]];
+    let polygon = &mut case.scene.lights[0].polygons[0];
+    let mean = window.texels.iter().sum::<Vec3>() / 108.0;
+    polygon.contours = vec![corners.map(|[x, y]: [f32; 2]| place().transform_point3(Vec3::new(x, y, 0.0))).to_vec()];
+    assert!(case.scene.lights[0].radiance.abs_diff_eq(mean, 1e-5));
+    let [off, more] = errors(&pictured(&case, SIZE, centred(1024, 1)), &expected);
+    assert!(off < 0.06 && more.abs() < 4e-3, "{off} {more}");
+    // Turned about, it shines to the other side as well.
+    let light = &mut case.scene.lights[0];
+    light.two_sided = true;
+    light.polygons[0].contours[0].reverse();
+    light.polygons[0].normal *= -1.0;
+    let behind = errors(&pictured(&case, SIZE, centred(1024, 1)), &expected);
+    assert!(behind[0] < 0.06 && behind[1].abs() < 4e-3, "{behind:?}");
 }
