@@ -65,11 +65,8 @@ fn patterns_seen(receiver: Receiver, polygon: u32, directions: LobesVectors) -> 
     return seen;
 }
 
-// The factor of a light's radiance where a direction of the local frame meets it.
+// The factor of a light's radiance where a direction of the local frame meets it; there is a pattern.
 fn patterns_factor(receiver: Receiver, pattern: u32, wo: vec3f) -> vec3f {
-    if pattern == PATTERNS_NONE {
-        return vec3f(1.0);
-    }
     let sheet = patterns_sheets[pattern];
     let size = vec2u(sheet.columns, sheet.rows);
     let cell = min(vec2u(max(patterns_place(receiver, sheet, LOBES_DIFFUSE, wo).at, vec2f(0.0))), size - 1u);

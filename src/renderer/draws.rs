@@ -144,6 +144,11 @@ impl Draws {
         self.batches.iter().any(|batch| batch.variant.look.sheen_model != 0)
     }
 
+    /// Whether lights that shine on any instance have patterns.
+    pub fn has_patterns(&self) -> bool {
+        self.batches.iter().any(|batch| batch.variant.lights.patterns)
+    }
+
     /// The runs of opaque instances that may be in the view, batch by batch.
     pub fn opaque(&self, frustum: &Frustum) -> impl Iterator<Item = (&Batch, Range<u32>)> {
         self.batches.iter().filter(|batch| !batch.variant.look.blend).flat_map(|batch| {

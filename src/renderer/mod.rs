@@ -241,7 +241,7 @@ impl Renderer {
         showing: Showing,
     ) {
         if self.is_shadowed {
-            self.shadowed.show(gpu, encoder, output, (showing, self.resident.has_patterns));
+            self.shadowed.show(gpu, encoder, output, (showing, self.resident.draws.has_patterns()));
         } else if let Some(targets) = &self.targets {
             let drawn = display::Drawn::Targets(targets);
             self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);

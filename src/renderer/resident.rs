@@ -43,8 +43,6 @@ pub(super) struct Resident {
     patterns: Patterns,
     /// How many numbers of theirs the buffer has.
     held: usize,
-    /// Whether lights have any.
-    pub has_patterns: bool,
     /// What stands in for attributes that a mesh lacks: zero, and white.
     pub constants: Buffer,
     pub material_layout: BindGroupLayout,
@@ -84,7 +82,6 @@ impl Resident {
             pattern_texels: stored((PATTERNS, bytemuck::cast_slice(patterns.texels())))?,
             held: patterns.texels().len(),
             patterns,
-            has_patterns: contents.lights.kinds().patterns,
             constants: device.create_buffer_init(&constants),
             material_layout,
             material_groups,
@@ -116,7 +113,6 @@ impl Resident {
             grown |= written(gpu, &mut self.pattern_texels, (PATTERNS, texels))?;
             self.held = self.patterns.texels().len();
         }
-        self.has_patterns = contents.lights.kinds().patterns;
         self.draws = contents.draws;
         Ok(grown)
     }
