@@ -4,7 +4,8 @@ use egui::{PointerButton, Rect, Sense, Ui};
 use glam::Vec2;
 
 use super::change::Change;
-use super::panel::{self, Request};
+use super::panel;
+use super::request::Request;
 use super::state::State;
 use crate::scene::CameraEdit;
 

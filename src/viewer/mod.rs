@@ -11,6 +11,7 @@ mod material;
 mod native;
 mod notices;
 mod panel;
+mod request;
 mod resting;
 mod screen;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]

@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::request::Request;
 use super::resting::UNTIL;
 use super::state::State;
 use super::widgets::{Glow, hue_button, slider};
@@ -14,15 +15,6 @@ pub const WIDTH: f32 = 270.0;
 
 /// The strongest ambient light that can be set.
 const AMBIENT_MAX: f32 = 10.0;
-
-/// What the user asks for that takes more than a change of the edits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Request {
-    /// The picture as it is shown, in a file.
-    Screenshot,
-    /// The edits, in a file.
-    SaveState,
-}
 
 /// Lays the panel out and applies what is changed in it to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {

@@ -27,6 +27,12 @@ pub struct State {
     pub notices: Vec<String>,
     /// What became of the last command: a screenshot's name, or why there is none.
     pub message: String,
+    /// Whether the picture has the window to itself.
+    pub panel_hidden: bool,
+    /// Whether the list of keys lies over the picture.
+    pub keys_shown: bool,
+    /// The material whose outline is shown for a moment.
+    pub outlined: Option<usize>,
     /// The middle of what is lit, metres: a camera of the scene turns about it.
     center: Vec3,
     /// The step of coordinates, metres: a power of ten, so small that some hundred of them cross the scene.
@@ -50,6 +56,9 @@ impl State {
             metered: None,
             notices: scene.notices.clone(),
             message: String::new(),
+            panel_hidden: false,
+            keys_shown: false,
+            outlined: None,
             center: scene.subject().center(),
             step: step(scene.bounds().diagonal()),
             scene,

@@ -8,14 +8,14 @@ use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::monitor::MonitorHandle;
-use winit::window::{Window, WindowId};
+use winit::window::{Fullscreen, Window, WindowId};
 
 use super::ViewerError;
 use super::frame::{Frame, Presented, Redraw};
 use super::frame_time::FrameTimes;
 use super::layout::{self, Layout};
 use super::native::{self, Instant};
-use super::panel::Request;
+use super::request::Request;
 use super::screen::Screen;
 use super::state::State;
 use super::window_size;
@@ -60,6 +60,12 @@ impl Open {
 
     fn is_due(&self) -> bool {
         self.due.is_some_and(|due| due <= native::now())
+    }
+
+    /// Over all of the screen, or back as it was.
+    fn toggle_fullscreen(&self) {
+        let is_full = self.window.fullscreen().is_some();
+        self.window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
     }
 
     /// When egui hears of an event.
@@ -128,6 +134,7 @@ impl App {
             self.state.message = match request {
                 Request::Screenshot => open.frame.screenshot(&self.state, &self.table),
                 Request::SaveState => native::save_state(&self.state),
+                Request::Fullscreen => return open.toggle_fullscreen(),
             };
             open.wake(open.passed);
         }

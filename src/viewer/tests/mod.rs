@@ -1,0 +1,163 @@
+//! The user interface without a window: what presses, drags and keys make of the edits.
+
+mod hands;
+mod panel;
+
+use egui::accesskit::{Node, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
+use glam::{Mat4, Vec3};
+
+use super::change::Change;
+use super::layout::{self, Layout};
+use super::request::Request;
+use super::state::State;
+use crate::scene::{
+    AlphaMode, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection, Scene,
+    Sheen, TextureSlot, TextureUse,
+};
+
+/// The user interface of a state, and what it was laid out as last.
+struct Window {
+    context: egui::Context,
+    state: State,
+    nodes: Vec<Node>,
+    layout: Layout,
+    /// After how many seconds egui wants the next pass.
+    delay: f64,
+}
+
+impl Window {
+    fn new(scene: Scene) -> Self {
+        let context = egui::Context::default();
+        context.enable_accesskit();
+        let state = State::new("test.glb", scene, Edits::default());
+        let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
+        // egui finds the sizes of things by laying them out.
+        for _ in 0..3 {
+            window.pass(vec![]);
+        }
+        window
+    }
+
+    /// A pass after these events; what it changes.
+    fn pass(&mut self, events: Vec<Event>) -> Change {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 1400.0)));
+        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let mut shown = Layout::default();
+        let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
+        self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
+        if let Some(update) = output.platform_output.accesskit_update.take() {
+            self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
+        }
+        output.drop_without_applying_deltas();
+        self.layout = shown;
+        self.layout.change
+    }
+
+    /// The greatest change that a drag brings about.
+    fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) -> Change {
+        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+        let passes = [
+            vec![Event::PointerMoved(from)],
+            vec![press(from, true)],
+            vec![Event::PointerMoved(to)],
+            vec![press(to, false)],
+        ];
+        passes.into_iter().map(|events| self.pass(events)).max().unwrap()
+    }
+
+    fn click(&mut self, at: Pos2) -> Change {
+        self.drag(PointerButton::Primary, at, at)
+    }
+
+    /// Places of the widgets of a role, from the top, each row from the left.
+    fn places(&self, role: Role) -> Vec<Rect> {
+        let of_role = self.nodes.iter().filter(|node| node.role() == role);
+        let mut places: Vec<Rect> = of_role.filter_map(place).collect();
+        places.sort_by(|left, right| (left.min.y, left.min.x).partial_cmp(&(right.min.y, right.min.x)).unwrap());
+        places
+    }
+
+    /// Where a widget of this role and text is.
+    fn place(&self, role: Role, text: &str) -> Rect {
+        let says = |node: &&Node| node.label().or(node.value()) == Some(text);
+        let found = self.nodes.iter().filter(|node| node.role() == role).find(says);
+        found.and_then(place).unwrap_or_else(|| panic!("no {role:?} says {text}"))
+    }
+
+    /// Where widgets of a role are in the row of a label.
+    fn in_row(&self, label: &str, role: Role) -> Vec<Rect> {
+        let row = self.place(Role::Label, label).y_range();
+        let places = self.places(role).into_iter();
+        places.filter(|place| row.contains(place.center().y)).collect()
+    }
+
+    /// Where the widgets of a role are in the row below that of a label.
+    fn below(&self, label: &str, role: Role) -> Vec<Rect> {
+        let bottom = self.place(Role::Label, label).max.y;
+        let places = self.places(role).into_iter();
+        places.filter(|place| (bottom..bottom + place.height() + 8.0).contains(&place.center().y)).collect()
+    }
+
+    /// Clicks on a box and types into it, key by key, with a pass or two after each; leaves the box by Enter.
+    fn type_into(&mut self, place: Rect, text: &str) {
+        self.click(place.center());
+        for character in text.chars() {
+            self.pass(vec![Event::Text(character.to_string())]);
+            self.pass(vec![]);
+        }
+        let key = |pressed| Event::Key {
+            key: Key::Enter,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        self.pass(vec![key(true)]);
+        self.pass(vec![key(false)]);
+    }
+}
+
+fn place(node: &Node) -> Option<Rect> {
+    let bounds = node.bounds()?;
+    Some(Rect::from_min_max(pos2(bounds.x0 as f32, bounds.y0 as f32), pos2(bounds.x1 as f32, bounds.y1 as f32)))
+}
+
+/// A velvet triangle of this size in metres, under one light.
+fn scene(size: f32) -> Scene {
+    let corners = vec![Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
+    let instance = |name: &str| Instance { name: name.into(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
+    let light = Light {
+        name: "key".into(),
+        radiance: Vec3::new(4.0, 2.0, 1.0),
+        two_sided: false,
+        polygons: vec![Polygon { contours: vec![corners.clone()], normal: Vec3::Z, pattern: None }],
+        instance: 1,
+        ..Light::default()
+    };
+    let camera = Camera {
+        name: "camera".into(),
+        world_from_camera: Mat4::from_translation(size * Vec3::Z),
+        projection: Projection::Perspective { yfov: 0.7, near: 0.1 * size, far: f32::INFINITY },
+    };
+    Scene {
+        meshes: vec![Mesh { positions: corners, ..Mesh::default() }],
+        instances: vec![instance("cloth"), instance("key")],
+        materials: vec![Material { sheen: Some(Sheen::new(Vec3::ONE, 0.3)), ..Material::matte("velvet", Vec3::ZERO) }],
+        lights: vec![light],
+        cameras: vec![camera],
+        ..Scene::default()
+    }
+}
+
+/// A window in which the panel shows everything it can show of materials; both materials have the same name.
+fn full() -> Window {
+    let mut scene = scene(1.0);
+    scene.materials.push(scene.materials[0].clone());
+    let mut window = Window::new(scene);
+    let manual = MaterialEdits { layering: Some(Layering::Manual(0.3)), ..MaterialEdits::default() };
+    window.state.edits.materials.insert(0, manual);
+    window.state.edits.ambient = Some(Vec3::new(0.1, 0.2, 0.3));
+    window.pass(vec![]);
+    window
+}
