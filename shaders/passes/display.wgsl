@@ -1,9 +1,9 @@
 // The second pass: a frame's radiance, multisampled or not, to what is shown (tone curve, sRGB) or measured
 // (the plain mean of a pixel's samples).
 
-// Whether the shares of radiance that are left have been filtered; otherwise what is blocked is subtracted.
+// Whether there are filtered shares of radiance that are left; otherwise what is known to be blocked is subtracted.
 override DISPLAY_FILTERED: bool = false;
-// Whether what is shown has more pixels than what was drawn.
+// Whether what is shown has more pixels than what was drawn, or than the shares.
 override DISPLAY_SCALED: bool = false;
 // What a pipeline shows with. 0: clamped; 1: Khronos PBR Neutral; 2: AgX.
 override DISPLAY_TONE_CURVE: u32 = 0;
@@ -100,19 +100,57 @@ fn display_srgb(linear: vec3f) -> vec4f {
     return vec4f(select(curve, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
 }
 
+// Where a pixel that is shown lies among those of a smaller picture: its nearest ones, and the weights of the right and the lower.
+struct DisplayPlace {
+    low: vec2u,
+    high: vec2u,
+    weight: vec2f,
+}
+
+fn display_place(pixel: vec2u, size: vec2u) -> DisplayPlace {
+    let last = vec2f(size - 1u);
+    let at = clamp((vec2f(pixel) + 0.5) * display_uniforms.scale - 0.5, vec2f(0.0), last);
+    let low = vec2u(at);
+    return DisplayPlace(low, min(low + 1u, vec2u(last)), at - vec2f(low));
+}
+
+// The share of a pixel's radiance that is left, by the picture that shares are of.
+fn display_share(pixel: vec2u) -> vec3f {
+    if !DISPLAY_FILTERED {
+        return vec3f(1.0);
+    }
+    let place = display_place(pixel, textureDimensions(display_shares));
+    let upper = mix(display_share_at(place.low), display_share_at(vec2u(place.high.x, place.low.y)), place.weight.x);
+    let lower = mix(display_share_at(vec2u(place.low.x, place.high.y)), display_share_at(place.high), place.weight.x);
+    return mix(upper, lower, place.weight.y);
+}
+
+fn display_share_at(pixel: vec2u) -> vec3f {
+    return textureLoad(display_shares, pixel, 0).rgb;
+}
+
+// What such a share leaves of it, exposed anew.
+fn display_shared(radiance: vec4f, share: vec3f) -> vec4f {
+    if !DISPLAY_FILTERED {
+        return radiance;
+    }
+    return vec4f(radiance.rgb * share * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
+}
+
 @fragment
 fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    return display_srgb(display_seen(textureLoad(display_radiance, pixel, 0)));
+    return display_srgb(display_seen(display_shared(textureLoad(display_radiance, pixel, 0), display_share(pixel))));
 }
 
 // Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.
 @fragment
 fn display_shown_multisampled(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
+    let share = display_share(pixel);
     var sum = vec3f(0.0);
     for (var sample = 0u; sample < 4u; sample++) {
-        sum += display_seen(textureLoad(display_radiance_multisampled, pixel, sample));
+        sum += display_seen(display_shared(textureLoad(display_radiance_multisampled, pixel, sample), share));
     }
     return display_srgb(0.25 * sum);
 }
@@ -135,10 +173,10 @@ fn display_measured_multisampled(@builtin(position) position: vec4f) -> @locatio
 // What is left of a pixel's radiance, and the share of it that is lit.
 fn display_left(pixel: vec2u) -> vec4f {
     let radiance = textureLoad(display_radiance, pixel, 0);
-    var left = max(radiance.rgb - textureLoad(display_blocked, pixel, 0).rgb, vec3f(0.0));
     if DISPLAY_FILTERED {
-        left = radiance.rgb * textureLoad(display_shares, pixel, 0).rgb;
+        return display_shared(radiance, display_share_at(pixel));
     }
+    let left = max(radiance.rgb - textureLoad(display_blocked, pixel, 0).rgb, vec3f(0.0));
     return vec4f(left * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
 }
 
@@ -147,14 +185,10 @@ fn display_left_at(position: vec4f) -> vec4f {
     if !DISPLAY_SCALED {
         return display_left(pixel);
     }
-    let last = vec2f(textureDimensions(display_radiance) - 1u);
-    let at = clamp((vec2f(pixel) + 0.5) * display_uniforms.scale - 0.5, vec2f(0.0), last);
-    let low = vec2u(at);
-    let high = min(low + 1u, vec2u(last));
-    let weight = at - vec2f(low);
-    let upper = mix(display_left(low), display_left(vec2u(high.x, low.y)), weight.x);
-    let lower = mix(display_left(vec2u(low.x, high.y)), display_left(high), weight.x);
-    return mix(upper, lower, weight.y);
+    let place = display_place(pixel, textureDimensions(display_radiance));
+    let upper = mix(display_left(place.low), display_left(vec2u(place.high.x, place.low.y)), place.weight.x);
+    let lower = mix(display_left(vec2u(place.low.x, place.high.y)), display_left(place.high), place.weight.x);
+    return mix(upper, lower, place.weight.y);
 }
 
 @fragment

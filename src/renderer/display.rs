@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderPipeline};
-use wgpu::{ShaderModule, TextureFormat, TextureView};
+use wgpu::{ShaderModule, TextureFormat, TextureUsages, TextureView};
 
 use super::accumulation::Means;
 use super::fullscreen;
-use super::targets::Targets;
+use super::targets::{Targets, attachment};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::Rect;
 use crate::picture::ToneCurve;
@@ -73,6 +73,13 @@ pub(super) enum Source {
 /// What of a frame is shown.
 pub(super) enum Drawn<'a> {
     Targets(&'a Targets),
+    /// The same where shadows are those of a smaller picture: the shares that are left, and its size.
+    Shared {
+        targets: &'a Targets,
+        shares: (&'a TextureView, [u32; 2]),
+        /// What exposed radiance is multiplied by.
+        gain: f32,
+    },
     Shadowed {
         means: &'a Means,
         /// The shares that are left, where they were filtered.
@@ -92,6 +99,8 @@ pub struct DisplayPass {
     measured: bool,
     made: HashMap<Variant, RenderPipeline>,
     uniforms: TrackedBuffer,
+    /// Bound where there are no shares.
+    nothing: TextureView,
 }
 
 /// What a pipeline is made for.
@@ -107,8 +116,8 @@ impl DisplayPass {
     /// The pass for `Showing::Measured` where `measured`, else for `Showing::Shown`.
     pub fn new(device: &Device, source: Source, output: TextureFormat, measured: bool) -> Self {
         let textures: &[(u32, bool)] = match source {
-            Source::Single => &[(1, false)],
-            Source::Multisampled => &[(2, true)],
+            Source::Single => &[(1, false), (4, false)],
+            Source::Multisampled => &[(2, true), (4, false)],
             Source::Shadowed => &[(1, false), (3, false), (4, false)],
         };
         let layout = fullscreen::layout(device, "display", true, textures);
@@ -118,7 +127,8 @@ impl DisplayPass {
         });
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "display uniforms", &uniforms, BufferUsages::UNIFORM);
-        Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms }
+        let nothing = attachment(device, "no shares", ([1; 2], 1, TextureFormat::Rgba16Float), TextureUsages::TEXTURE_BINDING);
+        Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms, nothing }
     }
 
     /// How many pipelines there are.
@@ -137,15 +147,18 @@ impl DisplayPass {
         showing: Showing,
     ) {
         let Rect { x, y, width, height } = place;
+        let scale = |size: &[u32; 2]| [size[0] as f32 / width as f32, size[1] as f32 / height as f32];
+        let binding = if self.source == Source::Multisampled { 2 } else { 1 };
         let (textures, scale, gain, filtered): (Vec<(u32, &TextureView)>, _, _, _) = match drawn {
             Drawn::Targets(targets) => {
-                let binding = if self.source == Source::Multisampled { 2 } else { 1 };
-                (vec![(binding, &targets.radiance)], [1.0; 2], 1.0, false)
+                (vec![(binding, &targets.radiance), (4, &self.nothing)], [1.0; 2], 1.0, false)
+            }
+            Drawn::Shared { targets, shares: (shares, size), gain } => {
+                (vec![(binding, &targets.radiance), (4, shares)], scale(size), *gain, true)
             }
             Drawn::Shadowed { means, shares, size, gain } => {
                 let textures = [(1, &means.radiance), (3, &means.blocked), (4, shares.unwrap_or(&means.blocked))];
-                let scale = [size[0] as f32 / width as f32, size[1] as f32 / height as f32];
-                (textures.to_vec(), scale, *gain, shares.is_some())
+                (textures.to_vec(), scale(size), *gain, shares.is_some())
             }
         };
         let uniforms = Uniforms { origin: [x, y], scale, gain, padding: 0 };

@@ -51,6 +51,8 @@ pub use shadows::{Blockers, Built};
 pub use targets::RadianceFormat;
 pub use view::{Rect, View};
 
+use std::ops::Range;
+
 use blended::Blended;
 use display::{DisplayPass, Source};
 use pipelines::Stage;
@@ -126,8 +128,18 @@ pub struct Renderer {
     targets_made: usize,
     shadows: Shadows,
     shadowed: Shadowed,
-    /// Whether what was drawn last has shadows.
-    is_shadowed: bool,
+    latest: Latest,
+}
+
+/// What was drawn last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Latest {
+    Unshadowed,
+    Shadowed,
+    /// Without shadows, to be shown with those of the picture before it; and by what its radiance was multiplied.
+    Sharpened {
+        gain: f32,
+    },
 }
 
 impl Renderer {
@@ -152,7 +164,7 @@ impl Renderer {
             targets_made: 0,
             shadows: Shadows::default(),
             shadowed: Shadowed::new(gpu, format, formats),
-            is_shadowed: false,
+            latest: Latest::Unshadowed,
         })
     }
 
@@ -181,6 +193,14 @@ impl Renderer {
         settings.shadows && self.shadows.bound().is_some()
     }
 
+    /// Whether pipelines are to be made before a sample can be drawn with these settings: that takes long, or the first frame does.
+    pub fn lacks_pipelines(&self, settings: &Settings, sample: &Sample) -> bool {
+        match self.shadows.bound().filter(|_| settings.shadows) {
+            Some((_, opacities)) => self.surfaces.lacks(&self.resident, &[Stage::Depth, sample.stage(opacities)]),
+            None => self.surfaces.lacks(&self.resident, &[Stage::Unshadowed]),
+        }
+    }
+
     /// The first pass: draws the view's radiance, exposed for `showing`, into targets of this size, which are kept for
     /// `show`. With shadows that is a sample, which is added to those before it; without them there is but one.
     pub fn draw(
@@ -188,21 +208,68 @@ impl Renderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         size: [u32; 2],
-        (view, settings, showing): (&View, &Settings, Showing),
+        frame: (&View, &Settings, Showing),
         sample: &Sample,
     ) {
+        self.draw_rows(gpu, encoder, size, frame, sample, 0..size[1]);
+    }
+
+    /// The same in parts, for samples that take long: of one with shadows it draws these rows. The first part starts at row 0; with
+    /// the last one, which ends at the height, the sample is there, and until then what was drawn before is shown. Parts of one
+    /// sample are drawn with the same values of everything. Where there are no shadows all rows are drawn.
+    pub fn draw_rows(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        (view, settings, showing): (&View, &Settings, Showing),
+        sample: &Sample,
+        rows: Range<u32>,
+    ) {
         self.blended.prepare(gpu, &self.resident.draws, view);
-        self.is_shadowed = self.has_shadows(settings);
         let things = (&self.resident, &self.blended);
-        if let Some((blockers, opacities)) = self.shadows.bound().filter(|_| self.is_shadowed) {
+        if let Some((blockers, opacities)) = self.shadows.bound().filter(|_| settings.shadows) {
             let stage = sample.stage(opacities);
             self.surfaces.prepare(gpu, &self.resident, &[Stage::Depth, stage]);
             let (targets, gain) = self.shadowed.begin(gpu, size, sample.index, showing.gain());
             let frame = (view, settings, gain, sample);
-            self.surfaces.encode_shadowed(&gpu.queue, encoder, (targets, stage, blockers), things, frame);
-            self.shadowed.add(gpu, encoder);
+            self.surfaces.encode_shadowed(&gpu.queue, encoder, (targets, stage, blockers), things, frame, &rows);
+            if rows.end == size[1] {
+                self.shadowed.add(gpu, encoder);
+                self.latest = Latest::Shadowed;
+            }
             return;
         }
+        self.draw_unshadowed(gpu, encoder, size, (view, settings, showing));
+        self.latest = Latest::Unshadowed;
+    }
+
+    /// Draws what a small picture with shadows, which was drawn last, shows in as many pixels as these, without shadows; `show` shows it
+    /// with those of the small one, so that it is sharp long before its own are there. Draws nothing, and returns false, where those are
+    /// not to be had: shadows of many samples, and of some adapters, are not filtered.
+    pub fn sharpen(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        frame: (&View, &Settings, Showing),
+    ) -> bool {
+        let has_shares = self.latest == Latest::Shadowed && self.shadowed.has_shares();
+        if has_shares {
+            self.blended.prepare(gpu, &self.resident.draws, frame.0);
+            self.draw_unshadowed(gpu, encoder, size, frame);
+            self.latest = Latest::Sharpened { gain: frame.2.gain() };
+        }
+        has_shares
+    }
+
+    fn draw_unshadowed(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        (view, settings, showing): (&View, &Settings, Showing),
+    ) {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
             _ => {
@@ -210,6 +277,7 @@ impl Renderer {
                 Targets::new(&gpu.device, size, self.format.radiance)
             }
         };
+        let things = (&self.resident, &self.blended);
         self.surfaces.prepare(gpu, &self.resident, &[Stage::Unshadowed]);
         self.surfaces.encode(&gpu.queue, encoder, &targets, things, (view, settings, showing.gain()));
         self.targets = Some(targets);
@@ -223,7 +291,7 @@ impl Renderer {
 
     /// Samples of the picture that was drawn last.
     pub fn samples(&self) -> u32 {
-        if self.is_shadowed { self.shadowed.samples() } else { 1 }
+        if self.latest == Latest::Unshadowed { 1 } else { self.shadowed.samples() }
     }
 
     /// How many pipelines and targets there have been so far: where it grows, a frame took longer than others will.
@@ -240,11 +308,22 @@ impl Renderer {
         output: (&wgpu::TextureView, Rect),
         showing: Showing,
     ) {
-        if self.is_shadowed {
-            self.shadowed.show(gpu, encoder, output, (showing, self.resident.draws.has_patterns()));
-        } else if let Some(targets) = &self.targets {
-            let drawn = display::Drawn::Targets(targets);
-            self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
+        let varied = self.resident.draws.has_patterns();
+        if self.latest == Latest::Shadowed {
+            return self.shadowed.show(gpu, encoder, output, (showing, varied));
         }
+        let Some(targets) = &self.targets else { return };
+        let shares = match self.latest {
+            Latest::Sharpened { gain } => {
+                self.shadowed.shares(gpu, encoder, varied).map(|shares| (shares, showing.gain() / gain))
+            }
+            Latest::Shadowed | Latest::Unshadowed => None,
+        };
+        let drawn = shares.map_or(display::Drawn::Targets(targets), |(shares, gain)| display::Drawn::Shared {
+            targets,
+            shares,
+            gain,
+        });
+        self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
     }
 }

@@ -1,9 +1,12 @@
 //! Frames with shadows: samples, their means, and what is shown of them.
+//!
+//! There may be two pictures of different sizes: while things move a small one is shown, and goes on to be shown until the first
+//! sample of a larger one is there.
 
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 use super::accumulation::{AccumulationPass, Means};
-use super::denoise::{DenoisePass, Shares};
+use super::denoise::{DenoisePass, Shares, passes};
 use super::display::{DisplayPass, Drawn, Source};
 use super::targets::{RadianceFormat, ShadowedTargets};
 use super::{Format, Gpu, Rect, Showing};
@@ -14,7 +17,11 @@ pub(super) struct Shadowed {
     accumulation: AccumulationPass,
     filter: Option<DenoisePass>,
     display: DisplayPass,
-    picture: Option<Picture>,
+    pictures: [Option<Picture>; 2],
+    /// The index of the picture that is shown.
+    shown: usize,
+    /// The index of the one that is drawn.
+    drawn: usize,
     pictures_made: usize,
 }
 
@@ -57,7 +64,9 @@ impl Shadowed {
             accumulation: AccumulationPass::new(device, formats.means),
             filter: formats.guide.map(|_| DenoisePass::new(device)),
             display: DisplayPass::new(device, Source::Shadowed, format.output, format.measured),
-            picture: None,
+            pictures: [None, None],
+            shown: 0,
+            drawn: 0,
             pictures_made: 0,
         }
     }
@@ -66,21 +75,24 @@ impl Shadowed {
         self.display.made() + self.pictures_made
     }
 
-    /// Samples of the picture so far.
+    /// Samples of the picture so far that is shown.
     pub fn samples(&self) -> u32 {
-        self.picture.as_ref().map_or(0, |picture| picture.samples)
+        self.pictures[self.shown].as_ref().map_or(0, |picture| picture.samples)
     }
 
     /// The targets for sample `index` of a picture of this size, and what its radiance is multiplied by: of the first what is
     /// asked for, of others what the first was.
     pub fn begin(&mut self, gpu: &Gpu, size: [u32; 2], index: u32, gain: f32) -> (&ShadowedTargets, f32) {
         let device = &gpu.device;
-        if self.picture.as_ref().is_none_or(|picture| picture.size != size) {
+        let is_shown = self.pictures[self.shown].as_ref().is_none_or(|picture| picture.size == size);
+        self.drawn = if is_shown { self.shown } else { 1 - self.shown };
+        let picture = &mut self.pictures[self.drawn];
+        if picture.as_ref().is_none_or(|picture| picture.size != size) {
             self.pictures_made += 1;
-            self.picture = None;
+            *picture = None;
         }
         let Formats { radiance, means, guide } = self.formats;
-        let picture = self.picture.get_or_insert_with(|| Picture {
+        let picture = picture.get_or_insert_with(|| Picture {
             size,
             targets: ShadowedTargets::new(device, size, (radiance, guide)),
             means: [(); 2].map(|()| Means::new(device, size, means)),
@@ -94,9 +106,10 @@ impl Shadowed {
         (&picture.targets, picture.gain)
     }
 
-    /// Adds what the targets hold to the means.
+    /// Adds what the targets hold to the means, which are shown from now on.
     pub fn add(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder) {
-        let Some(picture) = &mut self.picture else { return };
+        self.shown = self.drawn;
+        let Some(picture) = &mut self.pictures[self.drawn] else { return };
         let [after, before] = &picture.means;
         let sample = (&picture.targets, picture.samples);
         self.accumulation.encode((&gpu.device, &gpu.queue), encoder, sample, [after, before]);
@@ -113,13 +126,40 @@ impl Shadowed {
         output: (&TextureView, Rect),
         (showing, varied): (Showing, bool),
     ) {
-        let Some(picture) = &self.picture else { return };
-        let (means, device) = (&picture.means[0], &gpu.device);
-        let guided = picture.shares.as_ref().zip(picture.targets.guide.as_ref());
-        let shares = self.filter.as_mut().zip(guided).and_then(|(filter, (shares, guide))| {
-            filter.encode((device, &gpu.queue), encoder, (means, picture.samples, guide, varied), shares)
-        });
-        let drawn = Drawn::Shadowed { means, shares, size: picture.size, gain: showing.gain() / picture.gain };
-        self.display.encode((device, &gpu.queue), encoder, &drawn, output, showing);
+        let Some(picture) = &self.pictures[self.shown] else { return };
+        let shares = shares(picture, &mut self.filter, gpu, encoder, varied);
+        let gain = showing.gain() / picture.gain;
+        let drawn = Drawn::Shadowed { means: &picture.means[0], shares, size: picture.size, gain };
+        self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
     }
+
+    /// Whether shadows of the picture that is shown are filtered.
+    pub fn has_shares(&self) -> bool {
+        let is_filtered = |picture: &Picture| picture.shares.is_some() && passes(picture.samples) > 0;
+        self.filter.is_some() && self.pictures[self.shown].as_ref().is_some_and(is_filtered)
+    }
+
+    /// The shares of radiance that are left in the picture that is shown, and its size; none where they are not filtered.
+    pub fn shares(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        varied: bool,
+    ) -> Option<(&TextureView, [u32; 2])> {
+        let picture = self.pictures[self.shown].as_ref()?;
+        shares(picture, &mut self.filter, gpu, encoder, varied).map(|shares| (shares, picture.size))
+    }
+}
+
+/// The shares of a picture's radiance that are left, filtered; none where there is no filter, or where samples are many.
+fn shares<'a>(
+    picture: &'a Picture,
+    filter: &mut Option<DenoisePass>,
+    gpu: &Gpu,
+    encoder: &mut CommandEncoder,
+    varied: bool,
+) -> Option<&'a TextureView> {
+    let (shares, guide) = picture.shares.as_ref().zip(picture.targets.guide.as_ref())?;
+    let sampled = (&picture.means[0], picture.samples, guide, varied);
+    filter.as_mut()?.encode((&gpu.device, &gpu.queue), encoder, sampled, shares)
 }

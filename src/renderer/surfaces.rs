@@ -1,6 +1,7 @@
 //! The first pass: every surface's radiance into the targets.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
@@ -9,7 +10,7 @@ use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Face, Queue, Render
 use super::Gpu;
 use super::blended::Blended;
 use super::calls::{Call, Draw, Source, split};
-use super::draws::{Frustum, Variant};
+use super::draws::{Batch, Frustum, Variant};
 use super::pipelines::{Pipelines, Shaders, Stage};
 use super::prior_sheens::PriorAlbedos;
 use super::resident::{MeshBuffers, Resident};
@@ -94,13 +95,16 @@ impl SurfacesPass {
         if resident.draws.samples_lights() {
             self.albedos.fill(gpu, self.pipelines.shaders.surfaces(&gpu.device));
         }
-        for batch in &resident.draws.batches {
+        for (batch, stage) in needed(resident, stages) {
             let culled = (!batch.variant.look.double_sided).then_some(Face::Back);
-            for &stage in stages.iter().filter(|stage| !(**stage == Stage::Depth && batch.variant.look.blend)) {
-                let make = || self.pipelines.make(&gpu.device, &batch.variant, stage, culled);
-                self.made.entry((batch.variant, stage)).or_insert_with(make);
-            }
+            let make = || self.pipelines.make(&gpu.device, &batch.variant, stage, culled);
+            self.made.entry((batch.variant, stage)).or_insert_with(make);
         }
+    }
+
+    /// Whether there is something to be made for these stages.
+    pub(super) fn lacks(&self, resident: &Resident, stages: &[Stage]) -> bool {
+        needed(resident, stages).any(|(batch, stage)| !self.made.contains_key(&(batch.variant, stage)))
     }
 
     /// How many pipelines there are.
@@ -126,11 +130,11 @@ impl SurfacesPass {
         let (opaque, blended) = self.draws(things, view);
         let calls = split(opaque.into_iter().chain(blended), self.triangles_a_pass);
         let colors = [Some(&targets.radiance)];
-        self.run(encoder, things, (&calls, Stage::Unshadowed, None), (&colors, &targets.depth, [true; 2]));
+        self.run(encoder, things, (&calls, Stage::Unshadowed, None), (&colors, &targets.depth, [true; 2]), None);
     }
 
-    /// Draws one of each pixel's samples: depth first, so that what is hidden traces no rays; then what is seen, and what of it is
-    /// blocked by what is bound as `blockers`.
+    /// Draws one of each pixel's samples in these rows: depth first, in all rows with the first ones, so that what is hidden traces
+    /// no rays; then what is seen, and what of it is blocked by what is bound as `blockers`.
     pub(super) fn encode_shadowed(
         &mut self,
         queue: &Queue,
@@ -138,17 +142,22 @@ impl SurfacesPass {
         (targets, stage, blockers): (&ShadowedTargets, Stage, &BindGroup),
         things: (&Resident, &Blended),
         (view, settings, gain, sample): (&View, &Settings, f32, &Sample),
+        rows: &Range<u32>,
     ) {
         let view = view.shifted(sample.offset(), targets.size);
         self.write_frame(queue, (&view, settings, gain), sample);
         let (opaque, blended) = self.draws(things, &view);
-        let calls = split(opaque.iter().cloned(), self.triangles_a_pass);
-        self.run(encoder, things, (&calls, Stage::Depth, None), (&[], &targets.depth, [true; 2]));
+        let is_first = rows.start == 0;
+        if is_first {
+            let calls = split(opaque.iter().cloned(), self.triangles_a_pass);
+            self.run(encoder, things, (&calls, Stage::Depth, None), (&[], &targets.depth, [true; 2]), None);
+        }
         // Where two surfaces are equally near, the first is seen, also of those that are drawn where depth is equal.
         let calls = split(opaque.into_iter().rev().chain(blended), self.triangles_a_pass);
         let colors = [Some(&targets.radiance), Some(&targets.blocked), targets.guide.as_ref()];
         let colors = &colors[..if targets.guide.is_some() { 3 } else { 2 }];
-        self.run(encoder, things, (&calls, stage, Some(blockers)), (colors, &targets.depth, [true, false]));
+        let part = Some([0, rows.start, targets.size[0], rows.end - rows.start]);
+        self.run(encoder, things, (&calls, stage, Some(blockers)), (colors, &targets.depth, [is_first, false]), part);
     }
 
     fn write_frame(&mut self, queue: &Queue, (view, settings, gain): (&View, &Settings, f32), sample: &Sample) {
@@ -187,18 +196,23 @@ impl SurfacesPass {
         (opaque.collect(), blended.draws(resident))
     }
 
-    /// Makes these calls over the targets, whose colours and whose depth are cleared first where that is asked for.
+    /// Makes these calls over the targets, or over a part of them: x, y, width and height. Their colours and their depth are cleared
+    /// first where that is asked for, all over.
     fn run(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         things: (&Resident, &Blended),
         (calls, stage, blockers): (&[Call], Stage, Option<&BindGroup>),
         (colors, depth, clears): (&[Option<&TextureView>], &TextureView, [bool; 2]),
+        part: Option<[u32; 4]>,
     ) {
         // The first pass clears the targets, whatever there is to draw.
         let passes = calls.chunk_by(|one, next| one.pass == next.pass).chain(calls.is_empty().then_some(&[][..]));
         for (index, calls) in passes.enumerate() {
             let mut pass = begin(encoder, colors, depth, clears.map(|clears| clears && index == 0));
+            if let Some([x, y, width, height]) = part {
+                pass.set_scissor_rect(x, y, width, height);
+            }
             pass.set_bind_group(0, &self.bind_group, &[]);
             if let Some(blockers) = blockers {
                 pass.set_bind_group(2, blockers, &[]);
@@ -232,6 +246,13 @@ impl SurfacesPass {
             pass.set_index_buffer(sorted.unwrap_or(&mesh.indices).slice(..), wgpu::IndexFormat::Uint32);
         }
     }
+}
+
+/// What is drawn in these stages: of what is blended there is no depth.
+fn needed<'a>(resident: &'a Resident, stages: &'a [Stage]) -> impl Iterator<Item = (&'a Batch, Stage)> {
+    let drawn = |batch: &Batch, stage| stage != Stage::Depth || !batch.variant.look.blend;
+    let stages_of = move |batch| stages.iter().filter(move |stage| drawn(batch, **stage)).map(move |stage| (batch, *stage));
+    resident.draws.batches.iter().flat_map(stages_of)
 }
 
 /// Most triangles that a pass draws on software drivers, which first sort them into tiles and keep 70 bytes for each

@@ -9,8 +9,14 @@ mod layout;
 mod lights;
 mod material;
 mod native;
+mod loading;
 mod notices;
+mod open;
+mod order;
+mod pace;
+mod painter;
 mod panel;
+mod picture;
 mod request;
 mod resting;
 mod screen;
@@ -26,8 +32,9 @@ mod window_size;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
+pub use loading::Loading;
+
 use crate::renderer::{DeviceError, RenderError};
-use crate::scene::{Edits, Scene};
 use crate::table::SheenTable;
 
 /// The window could not be opened, or could not go on.
@@ -45,6 +52,9 @@ pub enum ViewerError {
     /// The scene could not be taken to the device or drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// There is no scene to show, for the reason that whoever loads it gives.
+    #[error("{0}")]
+    Scene(String),
 }
 
 /// Connects to the display; [`ViewerError::NoDisplay`] where there is none.
@@ -58,15 +68,10 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     })
 }
 
-/// Shows the scene, at first with these edits, under the title `name`, until the window is closed. Panics where the
-/// scene has no camera or no material.
-pub fn run(
-    event_loop: EventLoop<()>,
-    name: &str,
-    (scene, edits): (Scene, Edits),
-    table: SheenTable,
-) -> Result<(), ViewerError> {
-    let mut app = window::App::new(state::State::new(name, scene, edits), table);
+/// Shows the scene, at first with the edits that come with it, under the title `name`, until the window is closed. The window does
+/// not wait for it. Panics where the scene has no camera or no material.
+pub fn run(event_loop: EventLoop<()>, name: &str, loading: Loading, table: SheenTable) -> Result<(), ViewerError> {
+    let mut app = window::App::new(name, loading, table, event_loop.create_proxy());
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
     app.failure.map_or(Ok(()), Err)
 }

@@ -2,6 +2,7 @@
 //! browser, where none of it is to be had, replaces this file alone.
 
 use std::path::PathBuf;
+use std::sync::mpsc;
 use std::time::Duration;
 
 use crate::file::write_atomically;
@@ -47,9 +48,71 @@ impl<T: Send + 'static> Task<T> {
         self.0.is_finished()
     }
 
+    /// Waits for it, but not longer than that; whether it is done.
+    pub fn wait(&self, patience: Duration) -> bool {
+        let start = now();
+        while !self.is_done() && start.elapsed() < patience {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        self.is_done()
+    }
+
     /// What came of it, waited for; none where it panicked, which has been said.
     pub fn outcome(self) -> Option<T> {
         self.0.join().ok()
+    }
+}
+
+/// A thread that does what it is asked for, one thing after another.
+pub(super) struct Worker<Order, Report> {
+    orders: Option<mpsc::Sender<Order>>,
+    reports: mpsc::Receiver<Report>,
+    thread: Option<std::thread::JoinHandle<()>>,
+}
+
+impl<Order: Send + 'static, Report: Send + 'static> Worker<Order, Report> {
+    /// `work` is done for each order; after each report of it, `wake` is called.
+    pub fn start(
+        mut work: impl FnMut(Order) -> Report + Send + 'static,
+        wake: impl Fn() + Send + 'static,
+    ) -> Self {
+        let (orders, received) = mpsc::channel();
+        let (sent, reports) = mpsc::channel();
+        let thread = std::thread::spawn(move || {
+            for order in received {
+                if sent.send(work(order)).is_err() {
+                    break;
+                }
+                wake();
+            }
+        });
+        Self { orders: Some(orders), reports, thread: Some(thread) }
+    }
+
+    pub fn give(&self, order: Order) {
+        // A worker that has gone shows in what it reports.
+        let _ = self.orders.as_ref().map(|orders| orders.send(order));
+    }
+
+    /// What came of the last order; none while it is being worked on.
+    pub fn report(&self) -> Result<Option<Report>, Gone> {
+        match self.reports.try_recv() {
+            Ok(report) => Ok(Some(report)),
+            Err(mpsc::TryRecvError::Empty) => Ok(None),
+            Err(mpsc::TryRecvError::Disconnected) => Err(Gone),
+        }
+    }
+}
+
+/// The worker panicked, and has said why.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gone;
+
+impl<Order, Report> Drop for Worker<Order, Report> {
+    /// Waits for what it is at: drivers do not like to be left in the middle of something.
+    fn drop(&mut self) {
+        self.orders = None;
+        let _ = self.thread.take().map(std::thread::JoinHandle::join);
     }
 }
 
@@ -59,15 +122,20 @@ pub(super) fn finish(gpu: &Gpu) {
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
 }
 
-/// Saves a picture of what the state shows in the current folder under the first free name; says where.
-pub(super) fn save(picture: &DisplayImage, state: &State) -> Result<String, String> {
-    let comment = format!(
+/// What is written into a picture of what the state shows: of what, and how to have it again.
+pub(super) fn comment(state: &State) -> String {
+    format!(
         "velour view of {} at {} EV, with this state:\n{}",
         one_line(&state.name),
         state.settings().exposure,
         state.edits.to_text(&state.scene)
-    );
-    save_as("png", &picture.to_png_with_comment(&comment).map_err(|error| error.to_string())?)
+    )
+}
+
+/// Saves a picture with its comment in the current folder under the first free name; says where, or why not.
+pub(super) fn save(picture: &DisplayImage, comment: &str) -> String {
+    let bytes = picture.to_png_with_comment(comment).map_err(|error| error.to_string());
+    bytes.and_then(|bytes| save_as("png", &bytes)).unwrap_or_else(|error| error)
 }
 
 /// Saves what the user has changed as a text in the current folder; says where, or why not.

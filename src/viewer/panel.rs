@@ -3,7 +3,6 @@
 use egui::Ui;
 
 use super::request::Request;
-use super::resting::UNTIL;
 use super::state::State;
 use super::widgets::{Glow, hue_button, slider};
 use super::{lights, material, notices};
@@ -41,7 +40,7 @@ fn actions(ui: &mut Ui, state: &mut State) -> Option<Request> {
         ui.label(&state.message);
     }
     let milliseconds = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
-    ui.label(milliseconds.unwrap_or_default());
+    ui.label(state.doing.map(str::to_owned).or(milliseconds).unwrap_or_default());
     ui.weak("drag: turn; right or Shift drag: pan; wheel: zoom");
     ui.horizontal(|ui| {
         if ui.button("Reset").on_hover_text("Scene, view and settings as they were loaded").clicked() {
@@ -83,8 +82,8 @@ fn picture(ui: &mut Ui, state: &mut State) {
     ui.horizontal(|ui| {
         let about = "What stands between a surface and a light stops it. While the view rests shadows grow finer, and edges smoother";
         ui.checkbox(&mut settings.shadows, "shadows").on_hover_text(about);
-        if let Some(samples) = state.samples {
-            ui.weak(format!("{samples} of {} samples", UNTIL));
+        if let Some([samples, of]) = state.samples {
+            ui.weak(format!("{samples} of {of} samples"));
         }
     });
     // What is not touched is left unset.

@@ -11,7 +11,7 @@ use super::layout::Layout;
 /// after each move of the pointer, few of which change anything.
 pub struct Screen {
     /// What egui paints, as of the last pass.
-    pub shapes: Vec<ClippedShape>,
+    shapes: Vec<ClippedShape>,
     pub pixels_per_point: f32,
     /// Where the picture is, in points.
     pub picture: Rect,
@@ -19,22 +19,22 @@ pub struct Screen {
     pub change: Change,
     /// Whether what is shown differs from all this.
     stale: bool,
+    /// Whether the shapes have changed since they were handed on.
+    is_painted_anew: bool,
 }
 
 impl Screen {
     /// Nothing has been shown yet.
     pub fn new() -> Self {
-        Self { shapes: Vec::new(), pixels_per_point: 1.0, picture: Rect::ZERO, change: Change::Scene, stale: true }
+        Self { shapes: Vec::new(), pixels_per_point: 1.0, picture: Rect::ZERO, change: Change::Scene, stale: true, is_painted_anew: true }
     }
 
     /// Takes what a pass has led to; returns the changes of egui's textures, which are due at once.
     pub fn take(&mut self, layout: &Layout, output: FullOutput) -> TexturesDelta {
         let FullOutput { shapes, pixels_per_point, textures_delta, .. } = output;
-        self.stale |= layout.change > Change::None
-            || layout.picture != self.picture
-            || pixels_per_point != self.pixels_per_point
-            || !textures_delta.set.is_empty()
-            || shapes != self.shapes;
+        let is_painted_anew = shapes != self.shapes || pixels_per_point != self.pixels_per_point;
+        self.is_painted_anew |= is_painted_anew || !textures_delta.set.is_empty();
+        self.stale |= layout.change > Change::None || layout.picture != self.picture || self.is_painted_anew;
         self.change = self.change.max(layout.change);
         (self.picture, self.shapes, self.pixels_per_point) = (layout.picture, shapes, pixels_per_point);
         textures_delta
@@ -50,9 +50,10 @@ impl Screen {
         self.stale
     }
 
-    /// A frame has been presented, and nothing has been taken since it was drawn.
-    pub fn presented(&mut self) {
+    /// All of it is on its way to the screen: what egui paints, where that has changed since the last time.
+    pub fn presented(&mut self) -> Option<Vec<ClippedShape>> {
         (self.change, self.stale) = (Change::None, false);
+        std::mem::take(&mut self.is_painted_anew).then(|| self.shapes.clone())
     }
 }
 
@@ -172,6 +173,20 @@ mod tests {
             desk.screen.presented();
         }
         assert!(opened > 2, "{opened} popups");
+    }
+
+    #[test]
+    fn shapes_are_handed_over_once() {
+        let mut desk = Desk::settled();
+        desk.screen.lose();
+        assert!(desk.screen.presented().is_none());
+        desk.hover(1160.0, 300.0);
+        let again = (200..700).step_by(4).find_map(|y| {
+            desk.hover(1160.0, y as f32);
+            desk.screen.is_stale().then(|| desk.screen.presented())
+        });
+        assert!(again.flatten().is_some_and(|shapes| shapes.len() > 10));
+        assert!(desk.screen.presented().is_none());
     }
 
     #[test]

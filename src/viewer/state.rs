@@ -1,9 +1,12 @@
 //! What the window shows and the user changes.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use glam::Vec3;
 
+use super::change::Change;
+use super::order::Shot;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -11,14 +14,16 @@ use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 pub struct State {
     /// The file's name.
     pub name: String,
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     pub edits: Edits,
     /// The material that the panel shows.
     pub material: usize,
     /// What the renderer has to say of the view that it drew last.
     pub notice: Option<String>,
-    /// Samples that the picture's shadows have so far; none where it has no shadows.
-    pub samples: Option<u32>,
+    /// Samples that the picture's shadows have so far, and how many there will be; none where it has no shadows.
+    pub samples: Option<[u32; 2]>,
+    /// What the program is at, where that takes long.
+    pub doing: Option<&'static str>,
     /// How long the last drawn frame took.
     pub frame_time: Option<Duration>,
     /// What metering took for an exposure that is automatic; none before it has, and where it is to do so anew.
@@ -52,6 +57,7 @@ impl State {
             material: shown.unwrap_or(0),
             notice: None,
             samples: None,
+            doing: None,
             frame_time: None,
             metered: None,
             notices: scene.notices.clone(),
@@ -61,7 +67,7 @@ impl State {
             outlined: None,
             center: scene.subject().center(),
             step: step(scene.bounds().diagonal()),
-            scene,
+            scene: Arc::new(scene),
             edits,
         }
     }
@@ -81,6 +87,19 @@ impl State {
         let settings = self.edits.settings();
         let metered = self.metered.filter(|_| self.edits.exposure == Some(Exposure::Auto));
         Settings { exposure: metered.unwrap_or(settings.exposure), ..settings }
+    }
+
+    /// What a picture of it shows, where this has changed since the last.
+    pub fn shot(&self, change: Change) -> Shot {
+        Shot {
+            scene: self.scene.clone(),
+            edits: self.edits.clone(),
+            camera: self.camera(),
+            settings: self.settings(),
+            meter: self.needs_metering(),
+            change,
+            outlined: self.outlined,
+        }
     }
 
     /// The view: a camera of the scene as it is, until the user turns it.

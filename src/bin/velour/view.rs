@@ -10,7 +10,7 @@ use velour::scene::assets::DRAPE;
 use velour::scene::gltf::{self, Options};
 use velour::scene::{Drawn, Edits, Scene};
 use velour::table::SheenTable;
-use velour::viewer::ViewerError;
+use velour::viewer::{self, ViewerError};
 
 use crate::comment::command;
 use crate::console::{complain, say};
@@ -35,47 +35,73 @@ pub struct View {
 }
 
 pub fn run(arguments: &View) -> Result<(), Failure> {
-    let (name, scene) = load(arguments.scene.as_deref(), &arguments.loading.options())?;
-    let edits = arguments.state.as_ref().map_or_else(|| Ok(Edits::default()), |path| state::load(path, &scene))?;
-    render::check_real_time(&edits)?;
-    let no_display = |error| Failure::device(format!("{error}: open a desktop, or use `velour render`"));
-    let event_loop = velour::viewer::event_loop().map_err(no_display)?;
-    scene.notices.iter().for_each(complain);
-    velour::viewer::run(event_loop, &name, (scene, edits), SheenTable::embedded()).map_err(Failure::device)
+    let loading = load_aside(arguments.scene.clone(), arguments.loading.options(), arguments.state.clone());
+    let event_loop = match viewer::event_loop() {
+        Ok(event_loop) => event_loop,
+        Err(error) => {
+            // What is wrong with the scene comes first.
+            loading.wait().map_err(Failure::input)?;
+            return Err(Failure::device(format!("{error}: open a desktop, or use `velour render`")));
+        }
+    };
+    let name = name(arguments.scene.as_deref());
+    viewer::run(event_loop, &name, loading, SheenTable::embedded()).map_err(failure)
 }
 
 /// The viewer; without a display, or a device that draws on it, the picture that it would show.
 pub fn run_or_render(path: Option<&Path>, options: &Options) -> Result<(), Failure> {
-    let (name, scene) = load(path, options)?;
-    let event_loop = match velour::viewer::event_loop() {
+    let loading = load_aside(path.map(Path::to_owned), options.clone(), None);
+    let event_loop = match viewer::event_loop() {
         Ok(event_loop) => event_loop,
-        Err(no_display) => return render_instead(&no_display, path, &scene, &scene.notices),
+        Err(no_display) => return render_instead(&no_display, path, &loading.wait().map_err(Failure::input)?.0),
     };
-    scene.notices.iter().for_each(complain);
-    match velour::viewer::run(event_loop, &name, (scene, Edits::default()), SheenTable::embedded()) {
-        // The viewer has kept the scene; what there is to say of it has been said.
-        Err(why @ ViewerError::Device(_)) => render_instead(&why, path, &load(path, options)?.1, &[]),
-        shown => shown.map_err(Failure::device),
+    match viewer::run(event_loop, &name(path), loading, SheenTable::embedded()) {
+        // The viewer has kept the scene.
+        Err(why @ ViewerError::Device(_)) => {
+            render_instead(&why, path, &load(path, options, &|_| ()).map_err(Failure::input)?)
+        }
+        shown => shown.map_err(failure),
     }
 }
 
+fn failure(error: ViewerError) -> Failure {
+    match error {
+        ViewerError::Scene(why) => Failure::input(why),
+        other => Failure::device(other),
+    }
+}
+
+/// Loads a scene, and the edits in a state's file, while the window opens.
+fn load_aside(path: Option<PathBuf>, options: Options, state: Option<PathBuf>) -> viewer::Loading {
+    viewer::Loading::start(move |stage| {
+        let scene = load(path.as_deref(), &options, stage)?;
+        let edits = state.map_or_else(|| Ok(Edits::default()), |path| state::load(&path, &scene));
+        let edits = edits.and_then(|edits| render::check_real_time(&edits).map(|()| edits));
+        let edits = edits.map_err(|failure| failure.message)?;
+        scene.notices.iter().for_each(complain);
+        Ok((scene, edits))
+    })
+}
+
+/// What the window calls a scene.
+fn name(path: Option<&Path>) -> String {
+    path.map_or_else(|| DRAPE.name.to_owned(), |path| path.display().to_string())
+}
+
 /// Renders the scene to velour.png, says what there is to say of it, and why it is not in a window.
-fn render_instead(why: &ViewerError, path: Option<&Path>, scene: &Scene, notices: &[String]) -> Result<(), Failure> {
+fn render_instead(why: &ViewerError, path: Option<&Path>, scene: &Scene) -> Result<(), Failure> {
     let output = Path::new("velour.png");
     check_apart(output, scene, &[])?;
     render_default(scene, output)?;
-    notices.iter().for_each(complain);
     let what = path.map_or("the default scene".to_owned(), |path| path.display().to_string());
     say(format!("{why}: {what} is rendered to {}", output.display()));
     Ok(())
 }
 
-/// The scene in a file, or the default one, and its name.
-fn load(path: Option<&Path>, options: &Options) -> Result<(String, Scene), Failure> {
-    let Some(path) = path else {
-        return Ok((DRAPE.name.to_owned(), DRAPE.load().map_err(Failure::input)?));
-    };
-    Ok((path.display().to_string(), gltf::load(path, options).map_err(Failure::input)?))
+/// The scene in a file, or the default one.
+fn load(path: Option<&Path>, options: &Options, stage: &dyn Fn(&'static str)) -> Result<Scene, String> {
+    let loaded = path.map_or_else(|| DRAPE.load(), |path| gltf::load_in_stages(path, options, stage));
+    loaded.map_err(|error| error.to_string())
 }
 
 /// What `velour render` makes of the scene when no flag is given.

@@ -70,10 +70,17 @@ const NAME_MAX: usize = 256;
 /// The scene in a .glb file, or in a .gltf file with the buffers and images beside it. The error says in one line what
 /// is wrong, where, and what to do.
 pub fn load(path: &Path, options: &Options) -> Result<Scene, SceneError> {
+    load_in_stages(path, options, &|_| ())
+}
+
+/// The same, and says what it is at: "reading", say.
+pub fn load_in_stages(path: &Path, options: &Options, stage: &dyn Fn(&'static str)) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
     // Only a path without a file name has no parent.
     let folder = path.parent().unwrap_or(Path::new("."));
-    let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder), options));
+    stage("reading");
+    let read = buffers::read_file(path).and_then(|bytes| read(&bytes, Some(folder), options, stage));
+    stage("finding what shines");
     let mut scene = read.map(|read| complete(read, options)).map_err(|fault| SceneError::new(&file, fault))?;
     scene.files.insert(0, path.to_owned());
     Ok(scene)
@@ -82,16 +89,22 @@ pub fn load(path: &Path, options: &Options) -> Result<Scene, SceneError> {
 /// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
 /// [`load`], with `name` in place of the file's.
 pub fn from_slice(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, SceneError> {
-    read(bytes, None, options).map(|read| complete(read, options)).map_err(|fault| SceneError::new(name, fault))
+    read(bytes, None, options, &|_| ()).map(|read| complete(read, options)).map_err(|fault| SceneError::new(name, fault))
 }
 
 /// What the file holds, and what there is to say about it.
-fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene, Notices), Fault> {
+fn read(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    options: &Options,
+    stage: &dyn Fn(&'static str),
+) -> Result<(Scene, Notices), Fault> {
     let mut notices = Notices::default();
     let mut document = container::parse(bytes, &mut notices)?;
     check_extensions(&document.root)?;
     let mut buffers = buffers::load(&document, folder)?;
     references::check(&document.root)?;
+    stage("decoding meshes");
     let mut decoded = Decoded::new(&mut document.root, &mut buffers);
     meshopt::decode(&mut decoded)?;
     draco::decode(&mut decoded)?;
@@ -104,6 +117,7 @@ fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene
         let kind = "animations are not played; nodes stand where the file puts them";
         notices.add(kind, || format!("animation {animation}"));
     }
+    stage("placing meshes");
     let mut scene = Scene { materials: materials::read(root, &mut notices)?, ..Scene::default() };
     let placements = Assembly::new(accessors, &mut scene, &mut notices).add(&nodes, options.pose)?;
     origin::set(&mut scene, placements, &mut nodes, &mut notices);
@@ -116,6 +130,7 @@ fn read(bytes: &[u8], folder: Option<&Path>, options: &Options) -> Result<(Scene
             "the scene has no triangles to draw (points and lines are not drawn); put a visible mesh into it",
         ));
     }
+    stage("decoding textures");
     textures::read(root, &Sources { root, buffers: &buffers, folder }, &mut scene, &mut notices)?;
     scene.files = buffers::named_files(root, folder).into_iter().collect();
     Ok((scene, notices))

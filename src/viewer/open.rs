@@ -1,0 +1,226 @@
+//! The open window: what it shows, and what its painter is at.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::ViewportId;
+use winit::event_loop::EventLoopProxy;
+use winit::window::Window;
+
+use super::ViewerError;
+use super::change::Change;
+use super::frame::Frame;
+use super::native::{self, Gone, Instant, Worker};
+use super::order::{Left, Order, Report, Textures, Unseen, Work};
+use super::painter::Painter;
+use super::screen::Screen;
+use super::state::State;
+use super::window_size;
+use crate::renderer::{Gpu, device};
+use crate::table::SheenTable;
+
+/// How long nothing moves before what is shown coarsely is drawn in all its pixels,
+const SETTLED: Duration = Duration::from_millis(120);
+/// and how long while a button is held: a drag that pauses goes on most often.
+const HELD: Duration = Duration::from_millis(800);
+/// How often is looked whether something that is built is there.
+const BUILDING: Duration = Duration::from_millis(50);
+
+/// A window with what belongs to it.
+pub(super) struct Open {
+    pub window: Arc<Window>,
+    pub egui: egui_winit::State,
+    pub screen: Screen,
+    /// Changes of egui's textures that the painter has not been told.
+    pub textures: Textures,
+    /// When egui had its last pass.
+    pub passed: Instant,
+    /// When it gets its next; never while nothing happens.
+    pub due: Option<Instant>,
+    /// What the title says that is being done.
+    pub titled: Option<&'static str>,
+    painter: Worker<Order, Result<Report, ViewerError>>,
+    /// Since when the painter has had an order.
+    busy: Option<Instant>,
+    /// Whether its next one has been announced.
+    announced: bool,
+    left: Left,
+    /// When the picture changed last.
+    moved: Instant,
+    is_hidden: bool,
+    /// The comment of a picture that is to be kept.
+    comment: Option<String>,
+}
+
+impl Open {
+    pub fn new(window: Arc<Window>, table: SheenTable, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
+        let (surface, gpu) = native::block_on(open_surface(&window))?;
+        let context = egui::Context::default();
+        context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
+        let egui = egui_winit::State::new(
+            context.clone(),
+            ViewportId::ROOT,
+            &window,
+            Some(window.scale_factor() as f32),
+            window.theme(),
+            Some(gpu.device.limits().max_texture_dimension_2d as usize),
+        );
+        let frame = Frame::new(surface, &gpu, window.inner_size().into())?;
+        let mut painter = Painter::new(gpu, frame, context, table);
+        // Where the loop has ended nobody is left to be woken.
+        let painter = Worker::start(move |order| painter.obey(order), move || _ = wake.send_event(()));
+        let now = native::now();
+        Ok(Self {
+            window,
+            egui,
+            screen: Screen::new(),
+            textures: Textures::default(),
+            passed: now,
+            due: Some(now),
+            titled: None,
+            painter,
+            busy: None,
+            announced: false,
+            left: Left::Nothing,
+            moved: now,
+            is_hidden: false,
+            comment: None,
+        })
+    }
+
+    /// The next pass comes at this time, or when it was due before, if that is earlier.
+    pub fn wake(&mut self, at: Instant) {
+        self.due = Some(self.due.map_or(at, |due| due.min(at)));
+    }
+
+    /// The same after a delay.
+    pub fn wake_in(&mut self, delay: Duration) {
+        native::after(delay).into_iter().for_each(|at| self.wake(at));
+    }
+
+    pub fn is_due(&self) -> bool {
+        self.due.is_some_and(|due| due <= native::now())
+    }
+
+    /// How long the painter has been at its order.
+    pub fn busy_for(&self) -> Option<Duration> {
+        self.busy.map(|since| since.elapsed())
+    }
+
+    /// Has the picture kept, with this comment, once the painter is free.
+    pub fn save_picture(&mut self, comment: String) {
+        self.comment = Some(comment);
+    }
+
+    /// When something is to be looked at again: `slow` after an order was given, it is told of.
+    pub fn next(&self, slow: Duration) -> Option<Instant> {
+        let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
+        let rested = if self.busy.is_none() && !self.is_hidden { self.rests_at() } else { None };
+        [self.due, told, rested].into_iter().flatten().min()
+    }
+
+    /// When more of the picture is to be drawn.
+    fn rests_at(&self) -> Option<Instant> {
+        match self.left {
+            Left::Nothing => None,
+            Left::More => Some(self.moved),
+            Left::Built => Some(self.passed + BUILDING),
+            Left::Rest => {
+                let is_held = self.egui.egui_ctx().input(|input| input.pointer.any_down());
+                Some(self.moved + if is_held { HELD } else { SETTLED })
+            }
+        }
+    }
+
+    /// Takes in what the painter has told, if it has; whether there is something new to show of it.
+    pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
+        let Some(report) = self.report()? else { return Ok(false) };
+        let said = |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.notices.len());
+        let before = said(state);
+        (self.announced, state.doing) = (report.about_to.is_some(), report.about_to);
+        if report.about_to.is_some() {
+            self.left = Left::More;
+            return Ok(true);
+        }
+        self.left = report.left;
+        (state.samples, state.notice) = (report.samples, report.notice);
+        state.metered = report.metered.or(state.metered);
+        state.frame_time = report.frame_time.or(state.frame_time);
+        if let Some(advice) = report.advice {
+            state.message.clone_from(&advice);
+            state.notices.push(advice);
+        }
+        let saved = report.saved.zip(self.comment.take());
+        if let Some((saved, comment)) = saved {
+            state.message = saved.map_or_else(|error| error, |picture| native::save(&picture, &comment));
+            return Ok(true);
+        }
+        Ok(before != said(state))
+    }
+
+    /// The same before there is a scene.
+    pub fn hear_nothing(&mut self) -> Result<bool, ViewerError> {
+        self.report().map(|_| false)
+    }
+
+    fn report(&mut self) -> Result<Option<Report>, ViewerError> {
+        let gone = |Gone| ViewerError::Window("its painter has failed".to_owned());
+        let Some(report) = self.painter.report().map_err(gone)?.transpose()? else { return Ok(None) };
+        self.busy = None;
+        self.is_hidden = report.unseen == Some(Unseen::Hidden);
+        if report.unseen.is_some() {
+            self.screen.lose();
+        }
+        Ok(Some(report))
+    }
+
+    /// Gives the painter its next order, if it is free and there is something to do.
+    pub fn give(&mut self, state: Option<&State>) {
+        let size = self.window.inner_size();
+        // Minimised: what has changed is drawn when the window comes back.
+        if self.busy.is_some() || size.width == 0 || size.height == 0 {
+            return;
+        }
+        let now = native::now();
+        let rests = self.rests_at().is_some_and(|at| at <= now) && !self.is_hidden;
+        let work = match state {
+            Some(_) if self.comment.is_some() => Work::Save,
+            _ if self.screen.is_stale() || rests || self.announced => Work::Frame,
+            _ => return,
+        };
+        if self.screen.change > Change::None {
+            self.moved = now;
+        }
+        let change = self.screen.change;
+        let order = Order {
+            size: size.into(),
+            place: self.screen.picture,
+            pixels_per_point: self.screen.pixels_per_point,
+            shapes: self.screen.presented(),
+            textures: std::mem::take(&mut self.textures),
+            dropped: Vec::new(),
+            shot: state.map(|state| state.shot(change)),
+            work,
+            announced: self.announced,
+        };
+        self.busy = Some(now);
+        self.painter.give(order);
+    }
+}
+
+/// A surface of the window and a device that presents to it.
+async fn open_surface(window: &Arc<Window>) -> Result<(wgpu::Surface<'static>, Gpu), ViewerError> {
+    let mut failure = ViewerError::Device(device::DeviceError::NoAdapter);
+    for backends in device::BACKENDS {
+        let instance = device::instance_for_window(backends, Box::new(Arc::clone(window)));
+        let opened = match instance.create_surface(Arc::clone(window)) {
+            Ok(surface) => device::open(&instance, None, Some(&surface)).await.map(|gpu| (surface, gpu)),
+            Err(_) => continue,
+        };
+        match opened {
+            Ok(opened) => return Ok(opened),
+            Err(error) => failure = ViewerError::Device(error),
+        }
+    }
+    Err(failure)
+}

@@ -1,0 +1,127 @@
+//! What draws the window, on a thread of its own, so that the window answers however long a frame takes.
+
+use super::frame::{Frame, is_software};
+use super::native;
+use super::order::{Order, Report, Shot, Work};
+use super::picture::Picture;
+use super::{ViewerError, order::Left};
+use crate::picture::DisplayImage;
+use crate::renderer::{Gpu, Offscreen, RenderError};
+use crate::table::SheenTable;
+
+/// Samples per pixel of pictures that are kept.
+const SAMPLES: u32 = 4;
+
+/// The device, and what is on it.
+pub(super) struct Painter {
+    gpu: Gpu,
+    frame: Frame,
+    context: egui::Context,
+    table: SheenTable,
+    picture: Option<Picture>,
+}
+
+impl Painter {
+    /// `context` is that of the passes whose shapes orders bring.
+    pub fn new(gpu: Gpu, frame: Frame, context: egui::Context, table: SheenTable) -> Self {
+        Self { gpu, frame, context, table, picture: None }
+    }
+
+    /// Does what is asked for, and says what became of it.
+    pub fn obey(&mut self, order: Order) -> Result<Report, ViewerError> {
+        let Order { size, place, pixels_per_point, shapes, mut textures, dropped, shot, work, announced } = order;
+        self.frame.resize(&self.gpu, size);
+        self.frame.update_textures(&self.gpu, std::mem::take(&mut textures.0));
+        dropped.into_iter().for_each(|id| self.frame.remove_texture(id));
+        if let Some(shapes) = shapes {
+            self.frame.take(self.context.tessellate(shapes, pixels_per_point), pixels_per_point);
+        }
+        let mut report = Report::default();
+        let Some(shot) = shot else {
+            self.present(None, place, &mut report)?;
+            return Ok(report);
+        };
+        if announced {
+            self.present(Some(&shot), place, &mut report)?;
+        }
+        match work {
+            Work::Frame => self.draw(&shot, place, announced, &mut report)?,
+            Work::Save => report.saved = Some(self.save(&shot, place)),
+            Work::Tile(index, size) => self.tile(&shot, index, size, &mut report)?,
+        }
+        Ok(report)
+    }
+
+    /// Draws what there is to draw of the picture, and presents it.
+    fn draw(
+        &mut self,
+        shot: &Shot,
+        place: egui::Rect,
+        announced: bool,
+        report: &mut Report,
+    ) -> Result<(), ViewerError> {
+        let in_pixels = self.frame.in_pixels(place);
+        let picture = match &mut self.picture {
+            Some(picture) => picture,
+            None if !announced => {
+                report.about_to = Some("taking the scene to the device");
+                return Ok(());
+            }
+            None => {
+                let format = self.frame.format(&self.gpu)?;
+                let slow = is_software(&self.gpu);
+                self.picture.insert(Picture::new(&self.gpu, format, &self.table, shot, slow)?)
+            }
+        };
+        picture.receive(&self.gpu, shot, [in_pixels.width, in_pixels.height])?;
+        report.about_to = picture.about_to(shot).filter(|_| !announced);
+        if report.about_to.is_none() {
+            picture.advance(&self.gpu, shot, report)?;
+            self.present(Some(shot), place, report)?;
+        }
+        Ok(())
+    }
+
+    /// Shows the picture as far as it has come, and egui's part.
+    fn present(&mut self, shot: Option<&Shot>, place: egui::Rect, report: &mut Report) -> Result<(), ViewerError> {
+        let canvas = match self.frame.begin(&self.gpu)? {
+            Ok(canvas) => canvas,
+            Err(unseen) => {
+                report.unseen = Some(unseen);
+                return Ok(());
+            }
+        };
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let shown = shot.zip(self.picture.as_mut());
+        let is_drawn = shown.is_some();
+        if let Some((shot, picture)) = shown {
+            let output = (&canvas.view, self.frame.in_pixels(place));
+            picture.show(&self.gpu, &mut encoder, output, (shot, report.metered));
+        }
+        self.frame.end(&self.gpu, encoder, canvas, is_drawn);
+        // Never more than one frame ahead, so that a slow driver still answers to the latest drag.
+        native::finish(&self.gpu);
+        Ok(())
+    }
+
+    /// The picture as it is shown, without the panel.
+    fn save(&mut self, shot: &Shot, place: egui::Rect) -> Result<DisplayImage, String> {
+        let place = self.frame.in_pixels(place);
+        let failure = |error: RenderError| error.to_string();
+        let renderer = Offscreen::nearest_for_display(&self.gpu, SAMPLES, &self.table, &shot.drawn());
+        let mut renderer = renderer.map_err(failure)?;
+        let picture = renderer.display(&self.gpu, &shot.camera, [place.width, place.height], &shot.settings);
+        native::block_on_device(&self.gpu, picture).map_err(failure)
+    }
+
+    /// One picture of the sheet.
+    fn tile(&mut self, shot: &Shot, index: usize, size: [u32; 2], report: &mut Report) -> Result<(), ViewerError> {
+        report.left = Left::More;
+        if let Some(picture) = &mut self.picture {
+            let (id, view) = self.frame.add_texture(&self.gpu, size);
+            picture.aside(&self.gpu, (&view, size), shot)?;
+            report.tile = Some((index, id));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,227 @@
+//! The picture of the scene: what of it is drawn when, from the first coarse pixels to the last sample.
+
+use super::change::Change;
+use super::frame_time::FrameTimes;
+use super::native::{self, Task};
+use super::order::{Left, Report, Shot};
+use super::resting::{Resting, Step};
+use crate::picture::Blank;
+use crate::renderer::{Built, Format, Gpu, Rect, RenderError, Renderer, Sample, Showing, View};
+use crate::scene::Settings;
+use crate::table::SheenTable;
+
+/// Triangles that are sorted for shadows within a frame; more are on a thread of their own.
+const QUICK: usize = 10_000;
+
+/// The first of a picture's samples.
+const SAMPLE: Sample = Sample { index: 0, seed: 0, spread: true };
+
+/// A scene on the device, and how far its picture has come.
+pub(super) struct Picture {
+    renderer: Renderer,
+    /// Its width and height in pixels.
+    size: [u32; 2],
+    /// What of a change has not been drawn yet.
+    undrawn: Change,
+    resting: Resting,
+    /// Times of coarse frames, or of all where none are.
+    times: FrameTimes,
+    /// What is built for shadows.
+    building: Option<Task<Built>>,
+    /// Whether the first picture has been looked at.
+    is_checked: bool,
+    /// Whether the device has what another picture was drawn with.
+    is_foreign: bool,
+}
+
+impl Picture {
+    /// `slow`: whether drawing is expected to take long.
+    pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, shot: &Shot, slow: bool) -> Result<Self, RenderError> {
+        Ok(Self {
+            renderer: Renderer::new(gpu, format, table, &shot.drawn())?,
+            size: [0; 2],
+            undrawn: Change::Scene,
+            resting: Resting::new(slow),
+            times: FrameTimes::default(),
+            building: None,
+            is_checked: false,
+            is_foreign: false,
+        })
+    }
+
+    /// Takes in what has changed. To be called before anything else is done for an order.
+    pub fn receive(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) -> Result<(), RenderError> {
+        let change = if std::mem::take(&mut self.is_foreign) { Change::Scene } else { shot.change };
+        if change == Change::Scene {
+            self.renderer.update(gpu, &shot.drawn())?;
+        }
+        let resized = if size == self.size { Change::None } else { Change::Drawn };
+        self.size = size;
+        self.undrawn = self.undrawn.max(change).max(resized);
+        Ok(())
+    }
+
+    /// Why the next step will take long, where it is known that it will.
+    pub fn about_to(&self, shot: &Shot) -> Option<&'static str> {
+        let lacks = self.renderer.lacks_pipelines(&shot.settings, &SAMPLE);
+        (lacks && !self.resting_after(shot).is_finished()).then_some("compiling shaders")
+    }
+
+    /// Draws the next step, if there is one, and waits for the device. Says of it in `report` what there is to say.
+    pub fn advance(&mut self, gpu: &Gpu, shot: &Shot, report: &mut Report) -> Result<(), RenderError> {
+        self.expose(gpu, shot, report)?;
+        let exposure = report.metered.unwrap_or(shot.settings.exposure);
+        let is_ready = self.build_shadows(gpu, shot);
+        if is_ready {
+            self.draw(gpu, shot, exposure, report);
+        }
+        report.samples = self.has_shadows(shot).then(|| {
+            let samples = self.renderer.samples();
+            [samples, self.resting.until(samples).max(samples)]
+        });
+        report.notice = self.renderer.notice().map(str::to_owned);
+        report.left = match self.resting.is_finished() {
+            _ if self.building.is_some() => Left::Built,
+            true => Left::Nothing,
+            false if self.resting.is_coarse() => Left::Rest,
+            false => Left::More,
+        };
+        Ok(())
+    }
+
+    /// Shows what has been drawn.
+    pub fn show(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        output: (&wgpu::TextureView, Rect),
+        (shot, metered): (&Shot, Option<f32>),
+    ) {
+        let exposure = metered.unwrap_or(shot.settings.exposure);
+        self.renderer.show(gpu, encoder, output, Showing::Shown { exposure, tone: shot.settings.tone });
+    }
+
+    /// Draws another picture of the scene, of this size and with few samples, and shows it in all of the output.
+    pub fn aside(
+        &mut self,
+        gpu: &Gpu,
+        (output, size): (&wgpu::TextureView, [u32; 2]),
+        shot: &Shot,
+    ) -> Result<(), RenderError> {
+        self.is_foreign = true;
+        self.renderer.update(gpu, &shot.drawn())?;
+        let view = View::new(&shot.camera, size, Rect::full(size));
+        let showing = Showing::Shown { exposure: shot.settings.exposure, tone: shot.settings.tone };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.renderer.draw(gpu, &mut encoder, size, (&view, &shot.settings, showing), &SAMPLE);
+        self.renderer.show(gpu, &mut encoder, (output, Rect::full(size)), showing);
+        gpu.queue.submit([encoder.finish()]);
+        native::finish(gpu);
+        Ok(())
+    }
+
+    fn has_shadows(&self, shot: &Shot) -> bool {
+        self.renderer.has_shadows(&shot.settings)
+    }
+
+    /// How far the picture has come, where what has changed is counted.
+    fn resting_after(&self, shot: &Shot) -> Resting {
+        let mut resting = self.resting.clone();
+        let least = if self.has_shadows(shot) { Change::Drawn } else { Change::Exposed };
+        if self.undrawn >= least {
+            resting.moved();
+        }
+        resting
+    }
+
+    fn draw(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, report: &mut Report) {
+        self.resting = self.resting_after(shot);
+        self.undrawn = Change::None;
+        let (shadowed, height) = (self.has_shadows(shot), self.size[1]);
+        let step = self.resting.step(height, shadowed);
+        if step == Step::Enough {
+            return;
+        }
+        let (made, start) = (self.renderer.made(), native::now());
+        if !self.encode(gpu, shot, exposure, &step) {
+            return self.resting.skip_sharp();
+        }
+        native::finish(gpu);
+        let time = (made == self.renderer.made()).then(|| start.elapsed());
+        self.resting.drawn(&step, (height, shadowed), time);
+        let is_first = matches!(&step, Step::Coarse(_)) || matches!(&step, Step::Rows(0, rows) if *rows == (0..height));
+        if let Some(time) = time.filter(|_| is_first) {
+            self.times.add(time);
+            report.frame_time = self.times.median();
+        }
+    }
+
+    /// Has the device draw a step; false where it can't.
+    fn encode(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, step: &Step) -> bool {
+        let full = self.size;
+        let view = View::new(&shot.camera, full, Rect::full(full));
+        let showing = Showing::Shown { exposure, tone: shot.settings.tone };
+        let frame = (&view, &shot.settings, showing);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let sample = |index| Sample { index, ..SAMPLE };
+        match step {
+            Step::Coarse(divisor) => {
+                let size = full.map(|side| side.div_ceil(*divisor));
+                self.renderer.draw(gpu, &mut encoder, size, frame, &sample(0));
+            }
+            Step::Sharp if !self.renderer.sharpen(gpu, &mut encoder, full, frame) => return false,
+            Step::Sharp | Step::Enough => {}
+            Step::Rows(index, rows) => {
+                self.renderer.draw_rows(gpu, &mut encoder, full, frame, &sample(*index), rows.clone());
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+        true
+    }
+
+    /// Sees to what shadows take, and whether the picture may be drawn: where it is built on a thread of its own the first picture
+    /// comes without shadows, others once it is there.
+    fn build_shadows(&mut self, gpu: &Gpu, shot: &Shot) -> bool {
+        if let Some(task) = self.building.take_if(|task| task.is_done())
+            && let Some(built) = task.outcome()
+        {
+            self.renderer.receive(gpu, built);
+            self.undrawn = Change::Scene;
+        }
+        // At rest nothing can have become stale.
+        if self.building.is_none()
+            && self.undrawn >= Change::Drawn
+            && let Some(blockers) = self.renderer.blockers(gpu, &shot.drawn())
+        {
+            if blockers.triangles() > QUICK {
+                self.building = Some(Task::start(|| blockers.build()));
+            } else {
+                self.renderer.receive(gpu, blockers.build());
+            }
+        }
+        self.building.is_none() || !self.has_shadows(shot)
+    }
+
+    /// Meters where that is asked for; and looks, once, whether the first picture shows anything.
+    fn expose(&mut self, gpu: &Gpu, shot: &Shot, report: &mut Report) -> Result<(), RenderError> {
+        let Shot { camera, settings, .. } = shot;
+        if shot.meter {
+            let metered = self.renderer.meter(gpu, camera, self.size, settings);
+            report.metered = Some(native::block_on_device(gpu, metered)?.unwrap_or(0.0));
+            self.undrawn = self.undrawn.max(Change::Exposed);
+        }
+        if std::mem::replace(&mut self.is_checked, true) {
+            return Ok(());
+        }
+        let exposure = report.metered.unwrap_or(settings.exposure);
+        let exposed = Settings { exposure, ..*settings };
+        let seen = self.renderer.glance(gpu, camera, self.size, &exposed);
+        let seen = native::block_on_device(gpu, seen)?.display(0.0, settings.tone);
+        if let Some(blank) = Blank::of(&seen) {
+            let metered = self.renderer.meter(gpu, camera, self.size, settings);
+            report.advice = blank.advice(exposure, native::block_on_device(gpu, metered)?);
+        }
+        Ok(())
+    }
+}
+
