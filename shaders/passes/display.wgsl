@@ -100,33 +100,27 @@ fn display_srgb(linear: vec3f) -> vec4f {
     return vec4f(select(curve, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
 }
 
-// Where a pixel that is shown lies among those of a smaller picture: its nearest ones, and the weights of the right and the lower.
-struct DisplayPlace {
-    low: vec2u,
-    high: vec2u,
-    weight: vec2f,
-}
-
-fn display_place(pixel: vec2u, size: vec2u) -> DisplayPlace {
-    let last = vec2f(size - 1u);
+// What a picture, which may have fewer pixels, has where this pixel is shown.
+fn display_at(picture: texture_2d<f32>, pixel: vec2u) -> vec4f {
+    if !DISPLAY_SCALED {
+        return textureLoad(picture, pixel, 0);
+    }
+    let last = vec2f(textureDimensions(picture) - 1u);
     let at = clamp((vec2f(pixel) + 0.5) * display_uniforms.scale - 0.5, vec2f(0.0), last);
     let low = vec2u(at);
-    return DisplayPlace(low, min(low + 1u, vec2u(last)), at - vec2f(low));
+    let high = min(low + 1u, vec2u(last));
+    let weight = at - vec2f(low);
+    let upper = mix(textureLoad(picture, low, 0), textureLoad(picture, vec2u(high.x, low.y), 0), weight.x);
+    let lower = mix(textureLoad(picture, vec2u(low.x, high.y), 0), textureLoad(picture, high, 0), weight.x);
+    return mix(upper, lower, weight.y);
 }
 
-// The share of a pixel's radiance that is left, by the picture that shares are of.
+// The share of a pixel's radiance that is left.
 fn display_share(pixel: vec2u) -> vec3f {
-    if !DISPLAY_FILTERED {
-        return vec3f(1.0);
+    if DISPLAY_FILTERED {
+        return display_at(display_shares, pixel).rgb;
     }
-    let place = display_place(pixel, textureDimensions(display_shares));
-    let upper = mix(display_share_at(place.low), display_share_at(vec2u(place.high.x, place.low.y)), place.weight.x);
-    let lower = mix(display_share_at(vec2u(place.low.x, place.high.y)), display_share_at(place.high), place.weight.x);
-    return mix(upper, lower, place.weight.y);
-}
-
-fn display_share_at(pixel: vec2u) -> vec3f {
-    return textureLoad(display_shares, pixel, 0).rgb;
+    return vec3f(1.0);
 }
 
 // What such a share leaves of it, exposed anew.
@@ -137,10 +131,18 @@ fn display_shared(radiance: vec4f, share: vec3f) -> vec4f {
     return vec4f(radiance.rgb * share * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
 }
 
+// Of this size where there are shares, for they may be of another one.
+fn display_single(pixel: vec2u) -> vec4f {
+    if DISPLAY_FILTERED {
+        return textureLoad(display_radiance, pixel, 0);
+    }
+    return display_at(display_radiance, pixel);
+}
+
 @fragment
 fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    return display_srgb(display_seen(display_shared(textureLoad(display_radiance, pixel, 0), display_share(pixel))));
+    return display_srgb(display_seen(display_shared(display_single(pixel), display_share(pixel))));
 }
 
 // Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.
@@ -171,32 +173,22 @@ fn display_measured_multisampled(@builtin(position) position: vec4f) -> @locatio
 }
 
 // What is left of a pixel's radiance, and the share of it that is lit.
-fn display_left(pixel: vec2u) -> vec4f {
-    let radiance = textureLoad(display_radiance, pixel, 0);
-    if DISPLAY_FILTERED {
-        return display_shared(radiance, display_share_at(pixel));
-    }
-    let left = max(radiance.rgb - textureLoad(display_blocked, pixel, 0).rgb, vec3f(0.0));
-    return vec4f(left * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
-}
-
-fn display_left_at(position: vec4f) -> vec4f {
+fn display_left(position: vec4f) -> vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    if !DISPLAY_SCALED {
-        return display_left(pixel);
+    let radiance = display_at(display_radiance, pixel);
+    if DISPLAY_FILTERED {
+        return display_shared(radiance, display_share(pixel));
     }
-    let place = display_place(pixel, textureDimensions(display_radiance));
-    let upper = mix(display_left(place.low), display_left(vec2u(place.high.x, place.low.y)), place.weight.x);
-    let lower = mix(display_left(vec2u(place.low.x, place.high.y)), display_left(place.high), place.weight.x);
-    return mix(upper, lower, place.weight.y);
+    let left = max(radiance.rgb - display_at(display_blocked, pixel).rgb, vec3f(0.0));
+    return vec4f(left * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
 }
 
 @fragment
 fn display_shown_shadowed(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return display_srgb(display_seen(display_left_at(position)));
+    return display_srgb(display_seen(display_left(position)));
 }
 
 @fragment
 fn display_measured_shadowed(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return display_left_at(position);
+    return display_left(position);
 }

@@ -127,7 +127,8 @@ impl DisplayPass {
         });
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "display uniforms", &uniforms, BufferUsages::UNIFORM);
-        let nothing = attachment(device, "no shares", ([1; 2], 1, TextureFormat::Rgba16Float), TextureUsages::TEXTURE_BINDING);
+        let nothing =
+            attachment(device, "no shares", ([1; 2], 1, TextureFormat::Rgba16Float), TextureUsages::TEXTURE_BINDING);
         Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms, nothing }
     }
 
@@ -136,8 +137,8 @@ impl DisplayPass {
         self.made.len()
     }
 
-    /// Shows what was drawn in the rectangle `place` of the output, which is at most of the targets' size, or of any size
-    /// where that has shadows. What lies around it becomes black.
+    /// Shows what was drawn in the rectangle `place` of the output, which may be of another size unless it is
+    /// multisampled. What lies around it becomes black.
     pub fn encode(
         &mut self,
         (device, queue): (&Device, &Queue),
@@ -151,7 +152,7 @@ impl DisplayPass {
         let binding = if self.source == Source::Multisampled { 2 } else { 1 };
         let (textures, scale, gain, filtered): (Vec<(u32, &TextureView)>, _, _, _) = match drawn {
             Drawn::Targets(targets) => {
-                (vec![(binding, &targets.radiance), (4, &self.nothing)], [1.0; 2], 1.0, false)
+                (vec![(binding, &targets.radiance), (4, &self.nothing)], scale(&targets.size), 1.0, false)
             }
             Drawn::Shared { targets, shares: (shares, size), gain } => {
                 (vec![(binding, &targets.radiance), (4, shares)], scale(size), *gain, true)

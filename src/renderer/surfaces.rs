@@ -251,7 +251,8 @@ impl SurfacesPass {
 /// What is drawn in these stages: of what is blended there is no depth.
 fn needed<'a>(resident: &'a Resident, stages: &'a [Stage]) -> impl Iterator<Item = (&'a Batch, Stage)> {
     let drawn = |batch: &Batch, stage| stage != Stage::Depth || !batch.variant.look.blend;
-    let stages_of = move |batch| stages.iter().filter(move |stage| drawn(batch, **stage)).map(move |stage| (batch, *stage));
+    let stages_of =
+        move |batch| stages.iter().filter(move |stage| drawn(batch, **stage)).map(move |stage| (batch, *stage));
     resident.draws.batches.iter().flat_map(stages_of)
 }
 

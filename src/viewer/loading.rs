@@ -48,7 +48,13 @@ pub(super) fn show(ui: &mut Ui, name: &str, loading: &Loading) {
     let style = |style: egui::TextStyle| style.resolve(ui.style());
     let painter = ui.painter();
     let color = ui.visuals().text_color();
-    painter.text(area.center(), Align2::CENTER_BOTTOM, format!("Loading {name}"), style(egui::TextStyle::Heading), color);
+    painter.text(
+        area.center(),
+        Align2::CENTER_BOTTOM,
+        format!("Loading {name}"),
+        style(egui::TextStyle::Heading),
+        color,
+    );
     let below = area.center() + egui::vec2(0.0, 6.0);
     painter.text(below, Align2::CENTER_TOP, loading.said(), style(egui::TextStyle::Body), color);
 }

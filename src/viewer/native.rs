@@ -72,10 +72,7 @@ pub(super) struct Worker<Order, Report> {
 
 impl<Order: Send + 'static, Report: Send + 'static> Worker<Order, Report> {
     /// `work` is done for each order; after each report of it, `wake` is called.
-    pub fn start(
-        mut work: impl FnMut(Order) -> Report + Send + 'static,
-        wake: impl Fn() + Send + 'static,
-    ) -> Self {
+    pub fn start(mut work: impl FnMut(Order) -> Report + Send + 'static, wake: impl Fn() + Send + 'static) -> Self {
         let (orders, received) = mpsc::channel();
         let (sent, reports) = mpsc::channel();
         let thread = std::thread::spawn(move || {

@@ -135,7 +135,8 @@ impl Open {
     /// Takes in what the painter has told, if it has; whether there is something new to show of it.
     pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
         let Some(report) = self.report()? else { return Ok(false) };
-        let said = |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.notices.len());
+        let said =
+            |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.notices.len());
         let before = said(state);
         (self.announced, state.doing) = (report.about_to.is_some(), report.about_to);
         if report.about_to.is_some() {
@@ -191,7 +192,7 @@ impl Open {
         if self.screen.change > Change::None {
             self.moved = now;
         }
-        let change = self.screen.change;
+        let (change, stale) = (self.screen.change, self.screen.is_stale());
         let order = Order {
             size: size.into(),
             place: self.screen.picture,
@@ -201,6 +202,7 @@ impl Open {
             dropped: Vec::new(),
             shot: state.map(|state| state.shot(change)),
             work,
+            stale,
             announced: self.announced,
         };
         self.busy = Some(now);

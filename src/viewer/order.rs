@@ -27,6 +27,8 @@ pub struct Order {
     /// What the picture shows; none before there is a scene.
     pub shot: Option<Shot>,
     pub work: Work,
+    /// Whether the window shows something else than it should; otherwise it is presented only where the picture has come further.
+    pub stale: bool,
     /// What is said of this order while it lasts, for it will: it is presented before the work begins.
     pub announced: bool,
 }

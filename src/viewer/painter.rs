@@ -29,7 +29,8 @@ impl Painter {
 
     /// Does what is asked for, and says what became of it.
     pub fn obey(&mut self, order: Order) -> Result<Report, ViewerError> {
-        let Order { size, place, pixels_per_point, shapes, mut textures, dropped, shot, work, announced } = order;
+        let Order { size, place, pixels_per_point, shapes, mut textures, dropped, shot, work, stale, announced } =
+            order;
         self.frame.resize(&self.gpu, size);
         self.frame.update_textures(&self.gpu, std::mem::take(&mut textures.0));
         dropped.into_iter().for_each(|id| self.frame.remove_texture(id));
@@ -45,7 +46,7 @@ impl Painter {
             self.present(Some(&shot), place, &mut report)?;
         }
         match work {
-            Work::Frame => self.draw(&shot, place, announced, &mut report)?,
+            Work::Frame => self.draw(&shot, place, (stale, announced), &mut report)?,
             Work::Save => report.saved = Some(self.save(&shot, place)),
             Work::Tile(index, size) => self.tile(&shot, index, size, &mut report)?,
         }
@@ -57,7 +58,7 @@ impl Painter {
         &mut self,
         shot: &Shot,
         place: egui::Rect,
-        announced: bool,
+        (stale, announced): (bool, bool),
         report: &mut Report,
     ) -> Result<(), ViewerError> {
         let in_pixels = self.frame.in_pixels(place);
@@ -75,8 +76,7 @@ impl Painter {
         };
         picture.receive(&self.gpu, shot, [in_pixels.width, in_pixels.height])?;
         report.about_to = picture.about_to(shot).filter(|_| !announced);
-        if report.about_to.is_none() {
-            picture.advance(&self.gpu, shot, report)?;
+        if report.about_to.is_none() && (picture.advance(&self.gpu, shot, report)? || stale) {
             self.present(Some(shot), place, report)?;
         }
         Ok(())

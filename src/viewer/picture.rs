@@ -67,14 +67,13 @@ impl Picture {
         (lacks && !self.resting_after(shot).is_finished()).then_some("compiling shaders")
     }
 
-    /// Draws the next step, if there is one, and waits for the device. Says of it in `report` what there is to say.
-    pub fn advance(&mut self, gpu: &Gpu, shot: &Shot, report: &mut Report) -> Result<(), RenderError> {
+    /// Draws the next step, if there is one, and waits for the device. Says of it in `report` what there is to say. Returns whether
+    /// there is more to show than before.
+    pub fn advance(&mut self, gpu: &Gpu, shot: &Shot, report: &mut Report) -> Result<bool, RenderError> {
         self.expose(gpu, shot, report)?;
         let exposure = report.metered.unwrap_or(shot.settings.exposure);
         let is_ready = self.build_shadows(gpu, shot);
-        if is_ready {
-            self.draw(gpu, shot, exposure, report);
-        }
+        let is_further = is_ready && self.draw(gpu, shot, exposure, report);
         report.samples = self.has_shadows(shot).then(|| {
             let samples = self.renderer.samples();
             [samples, self.resting.until(samples).max(samples)]
@@ -86,7 +85,7 @@ impl Picture {
             false if self.resting.is_coarse() => Left::Rest,
             false => Left::More,
         };
-        Ok(())
+        Ok(is_further)
     }
 
     /// Shows what has been drawn.
@@ -134,17 +133,18 @@ impl Picture {
         resting
     }
 
-    fn draw(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, report: &mut Report) {
+    fn draw(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, report: &mut Report) -> bool {
         self.resting = self.resting_after(shot);
         self.undrawn = Change::None;
         let (shadowed, height) = (self.has_shadows(shot), self.size[1]);
-        let step = self.resting.step(height, shadowed);
+        let step = self.resting.step(height, shadowed, self.renderer.is_scaled(&shot.settings));
         if step == Step::Enough {
-            return;
+            return false;
         }
         let (made, start) = (self.renderer.made(), native::now());
         if !self.encode(gpu, shot, exposure, &step) {
-            return self.resting.skip_sharp();
+            self.resting.skip_sharp();
+            return false;
         }
         native::finish(gpu);
         let time = (made == self.renderer.made()).then(|| start.elapsed());
@@ -154,6 +154,7 @@ impl Picture {
             self.times.add(time);
             report.frame_time = self.times.median();
         }
+        !matches!(step, Step::Rows(_, rows) if rows.end < height)
     }
 
     /// Has the device draw a step; false where it can't.
@@ -224,4 +225,3 @@ impl Picture {
         Ok(())
     }
 }
-

@@ -60,10 +60,10 @@ impl Resting {
         (self.at, self.spent) = (At::Start, Duration::ZERO);
     }
 
-    /// What to draw next of a picture of this height, with shadows or without.
-    pub fn step(&self, height: u32, shadowed: bool) -> Step {
+    /// What to draw next of a picture of this height, with shadows or without, that may be `scaled` or not.
+    pub fn step(&self, height: u32, shadowed: bool, scaled: bool) -> Step {
         match self.at {
-            At::Start if self.pace.divisor() > 1 => Step::Coarse(self.pace.divisor()),
+            At::Start if scaled && self.pace.divisor() > 1 => Step::Coarse(self.pace.divisor()),
             At::Coarse if shadowed => Step::Sharp,
             At::Start | At::Coarse if shadowed => Step::Rows(0, self.pace.rows(0, height)),
             At::Start | At::Coarse => Step::Rows(0, 0..height),
@@ -130,7 +130,7 @@ mod tests {
     fn steps(resting: &mut Resting, shadowed: bool, row: Duration) -> Vec<Step> {
         let mut steps = Vec::new();
         while !resting.is_finished() {
-            let step = resting.step(HEIGHT, shadowed);
+            let step = resting.step(HEIGHT, shadowed, true);
             let time = match &step {
                 Step::Coarse(divisor) => row * HEIGHT / (divisor * divisor),
                 Step::Sharp => row * HEIGHT / 4,
@@ -141,7 +141,7 @@ mod tests {
             steps.push(step);
             assert!(steps.len() < 10_000, "it never ends");
         }
-        assert_eq!(resting.step(HEIGHT, shadowed), Step::Enough);
+        assert_eq!(resting.step(HEIGHT, shadowed, true), Step::Enough);
         steps
     }
 
@@ -203,10 +203,10 @@ mod tests {
     #[test]
     fn what_moves_begins_anew() {
         let mut resting = Resting::new(true);
-        let first = resting.step(HEIGHT, true);
+        let first = resting.step(HEIGHT, true, true);
         resting.drawn(&first, (HEIGHT, true), None);
         assert!(resting.is_coarse() && !resting.is_finished());
         resting.moved();
-        assert_eq!(resting.step(HEIGHT, true), first);
+        assert_eq!(resting.step(HEIGHT, true, true), first);
     }
 }

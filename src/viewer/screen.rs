@@ -26,7 +26,14 @@ pub struct Screen {
 impl Screen {
     /// Nothing has been shown yet.
     pub fn new() -> Self {
-        Self { shapes: Vec::new(), pixels_per_point: 1.0, picture: Rect::ZERO, change: Change::Scene, stale: true, is_painted_anew: true }
+        Self {
+            shapes: Vec::new(),
+            pixels_per_point: 1.0,
+            picture: Rect::ZERO,
+            change: Change::Scene,
+            stale: true,
+            is_painted_anew: true,
+        }
     }
 
     /// Takes what a pass has led to; returns the changes of egui's textures, which are due at once.

@@ -89,7 +89,9 @@ pub fn load_in_stages(path: &Path, options: &Options, stage: &dyn Fn(&'static st
 /// The scene in the bytes of a .glb, or of a .gltf with all its buffers and images inside. Errors are as those of
 /// [`load`], with `name` in place of the file's.
 pub fn from_slice(bytes: &[u8], name: &str, options: &Options) -> Result<Scene, SceneError> {
-    read(bytes, None, options, &|_| ()).map(|read| complete(read, options)).map_err(|fault| SceneError::new(name, fault))
+    read(bytes, None, options, &|_| ())
+        .map(|read| complete(read, options))
+        .map_err(|fault| SceneError::new(name, fault))
 }
 
 /// What the file holds, and what there is to say about it.

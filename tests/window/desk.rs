@@ -1,0 +1,304 @@
+//! A display of its own, the program on it, and hands: what a user sees and does, and what the process takes for it.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, ImageFormat, InputFocus, KEY_PRESS_EVENT,
+    KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState, Window,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+
+/// How long anything may take on a machine that has other things to do.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// A process that takes less time than this in a second does nothing: the clock ticks in hundredths.
+const IDLE: Duration = Duration::from_millis(10);
+
+/// Keys by their X11 names' numbers.
+pub mod keys {
+    pub const ENTER: u32 = 0xff0d;
+    pub const ESCAPE: u32 = 0xff1b;
+    pub const TAB: u32 = 0xff09;
+    pub const HOME: u32 = 0xff50;
+    pub const SHIFT: u32 = 0xffe1;
+    pub const CONTROL: u32 = 0xffe3;
+}
+
+/// A picture of the screen.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Shot {
+    pub width: usize,
+    pixels: Vec<[u8; 3]>,
+}
+
+impl Shot {
+    pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
+        self.pixels[y * self.width + x]
+    }
+
+    /// The share of pixels in columns and rows that differ from another picture's by more than `by` in some channel.
+    pub fn differs(&self, other: &Self, [left, right, top, bottom]: [usize; 4], by: u8) -> f64 {
+        let places = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
+        let far = |one: [u8; 3], other: [u8; 3]| (0..3).any(|channel| one[channel].abs_diff(other[channel]) > by);
+        let different = places.filter(|&(x, y)| far(self.at(x, y), other.at(x, y))).count();
+        different as f64 / ((right - left) * (bottom - top)) as f64
+    }
+
+    /// Of neighbours to the right, the mean difference: what is drawn in few pixels has little of it.
+    pub fn sharpness(&self, [left, right, top, bottom]: [usize; 4]) -> f64 {
+        let places = (top..bottom).flat_map(|y| (left..right - 1).map(move |x| (x, y)));
+        let step = |(x, y)| f64::from(self.at(x, y)[1].abs_diff(self.at(x + 1, y)[1]));
+        places.map(step).sum::<f64>() / ((right - left - 1) * (bottom - top)) as f64
+    }
+}
+
+/// The display and the program; both end with it.
+pub struct Desk {
+    server: Child,
+    connection: RustConnection,
+    root: Window,
+    pub size: [u16; 2],
+    program: Child,
+    /// The folder that the program runs in.
+    pub folder: TempDir,
+    window: Window,
+}
+
+impl Drop for Desk {
+    fn drop(&mut self) {
+        // What has ended already cannot be ended.
+        let _ = (self.program.kill(), self.program.wait(), self.server.kill(), self.server.wait());
+    }
+}
+
+impl Desk {
+    /// A display of this size, which the program's window fills, with these arguments.
+    pub fn new(size: [u16; 2], arguments: &[&Path]) -> Self {
+        let mut desk = Self::without_window(size, arguments);
+        desk.window = desk.until("a window", |desk| desk.find());
+        let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
+        let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
+        desk.connection.configure_window(desk.window, &place).unwrap().check().unwrap();
+        // There is no window manager that would give it the keyboard.
+        desk.connection.set_input_focus(InputFocus::PARENT, desk.window, 0_u32).unwrap().check().unwrap();
+        desk.move_to(i16::try_from(size[0] / 3).unwrap(), 5);
+        desk
+    }
+
+    /// The same before there is a window.
+    pub fn without_window(size: [u16; 2], arguments: &[&Path]) -> Self {
+        let screen = format!("{}x{}x24", size[0], size[1]);
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb is there: `scripts/setup window` installs it");
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        let display = format!(":{}", number.trim());
+        let (connection, screen) = RustConnection::connect(Some(&display)).unwrap();
+        let root = connection.setup().roots[screen].root;
+        let folder = tempfile::tempdir().unwrap();
+        let program = Command::new(env!("CARGO_BIN_EXE_velour"))
+            .args(arguments)
+            .current_dir(&folder)
+            .env("DISPLAY", &display)
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        Self { server, connection, root, size, program, folder, window: 0 }
+    }
+
+    /// Asks until there is an answer.
+    pub fn until<T>(&mut self, what: &str, ask: impl Fn(&mut Self) -> Option<T>) -> T {
+        let start = Instant::now();
+        loop {
+            if let Some(answer) = ask(self) {
+                return answer;
+            }
+            assert!(start.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    fn find(&self) -> Option<Window> {
+        let children = self.connection.query_tree(self.root).unwrap().reply().unwrap().children;
+        children.into_iter().find(|&window| {
+            let shown = self.connection.get_window_attributes(window).unwrap().reply();
+            let is_shown = shown.is_ok_and(|window| window.map_state == MapState::VIEWABLE);
+            is_shown && self.title_of(window).starts_with("Velour")
+        })
+    }
+
+    fn title_of(&self, window: Window) -> String {
+        let property = self.connection.get_property(false, window, AtomEnum::WM_NAME, AtomEnum::ANY, 0, 1024);
+        property.unwrap().reply().map(|name| String::from_utf8_lossy(&name.value).into_owned()).unwrap_or_default()
+    }
+
+    /// The window's title.
+    pub fn title(&self) -> String {
+        self.title_of(self.window)
+    }
+
+    /// Whether there is a window to be seen.
+    pub fn has_window(&self) -> bool {
+        self.find().is_some()
+    }
+
+    /// What the screen shows.
+    pub fn shot(&self) -> Shot {
+        let [width, height] = self.size;
+        let image = self.connection.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0);
+        let data = image.unwrap().reply().unwrap().data;
+        let pixels = data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
+        Shot { width: width.into(), pixels }
+    }
+
+    /// Processor time that the program has taken.
+    pub fn cpu(&self) -> Duration {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.program.id())).unwrap();
+        let after_name = stat.rsplit(')').next().unwrap();
+        let ticks = after_name.split_whitespace().skip(11).take(2).map(|ticks| ticks.parse::<u64>().unwrap());
+        Duration::from_millis(10 * ticks.sum::<u64>())
+    }
+
+    /// Memory that the program has written to, in kB.
+    pub fn memory(&self) -> usize {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.program.id())).unwrap();
+        let of = |name| {
+            let line = status.lines().find_map(|line| line.strip_prefix(name)).unwrap();
+            line.trim().trim_end_matches(" kB").parse::<usize>().unwrap()
+        };
+        of("RssAnon:") + of("VmSwap:")
+    }
+
+    /// Waits until the program does nothing any more: its picture is finished.
+    pub fn settle(&mut self) -> Shot {
+        self.until("rest", |desk| {
+            let before = desk.cpu();
+            std::thread::sleep(Duration::from_secs(1));
+            (desk.cpu() - before < IDLE).then_some(())
+        });
+        self.shot()
+    }
+
+    fn fake(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
+        self.connection.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap().check().unwrap();
+    }
+
+    pub fn move_to(&self, x: i16, y: i16) {
+        self.fake(MOTION_NOTIFY_EVENT, 0, [x, y]);
+    }
+
+    /// 1 is the left button, 2 the middle, 3 the right; 4 and 5 turn the wheel up and down.
+    pub fn press(&self, button: u8) {
+        self.fake(BUTTON_PRESS_EVENT, button, [0; 2]);
+    }
+
+    pub fn release(&self, button: u8) {
+        self.fake(BUTTON_RELEASE_EVENT, button, [0; 2]);
+    }
+
+    pub fn click(&self, x: i16, y: i16) {
+        self.move_to(x, y);
+        std::thread::sleep(Duration::from_millis(60));
+        self.press(1);
+        std::thread::sleep(Duration::from_millis(60));
+        self.release(1);
+        std::thread::sleep(Duration::from_millis(60));
+    }
+
+    /// A drag in steps of some pixels, each of which is waited for.
+    pub fn drag(&self, button: u8, from: [i16; 2], to: [i16; 2]) {
+        self.move_to(from[0], from[1]);
+        std::thread::sleep(Duration::from_millis(60));
+        self.press(button);
+        for step in 1..=10_i16 {
+            let between = |axis: usize| from[axis] + (to[axis] - from[axis]) / 10 * step;
+            self.move_to(between(0), between(1));
+            std::thread::sleep(Duration::from_millis(40));
+        }
+        self.release(button);
+        std::thread::sleep(Duration::from_millis(60));
+    }
+
+    /// The key that gives a symbol, and whether it takes Shift.
+    fn key(&self, symbol: u32) -> (u8, bool) {
+        let setup = self.connection.setup();
+        let (least, most) = (setup.min_keycode, setup.max_keycode);
+        let mapping = self.connection.get_keyboard_mapping(least, most - least + 1).unwrap().reply().unwrap();
+        let a_key = usize::from(mapping.keysyms_per_keycode);
+        let found = mapping.keysyms.iter().position(|&listed| listed == symbol);
+        let at = found.unwrap_or_else(|| panic!("no key gives {symbol:#x}"));
+        (least + u8::try_from(at / a_key).unwrap(), at % a_key == 1)
+    }
+
+    /// Presses a key while others are held.
+    pub fn chord(&self, held: &[u32], symbol: u32) {
+        let (code, shift) = self.key(symbol);
+        let shift = if shift { Some(keys::SHIFT) } else { None };
+        let held: Vec<u8> = held.iter().copied().chain(shift).map(|symbol| self.key(symbol).0).collect();
+        held.iter().for_each(|&code| self.fake(KEY_PRESS_EVENT, code, [0; 2]));
+        self.fake(KEY_PRESS_EVENT, code, [0; 2]);
+        self.fake(KEY_RELEASE_EVENT, code, [0; 2]);
+        held.iter().rev().for_each(|&code| self.fake(KEY_RELEASE_EVENT, code, [0; 2]));
+        std::thread::sleep(Duration::from_millis(80));
+    }
+
+    /// Types a text, key by key; what is no letter or digit is a symbol of the same number.
+    pub fn type_text(&self, text: &str) {
+        text.chars().for_each(|character| self.chord(&[], u32::from(character)));
+    }
+
+    /// The state, as the program saves it when it is asked to.
+    pub fn state(&mut self) -> String {
+        let number = (1..).find(|number| !self.folder.path().join(format!("velour-{number:03}.toml")).exists());
+        let path = self.folder.path().join(format!("velour-{:03}.toml", number.unwrap()));
+        self.chord(&[keys::CONTROL], u32::from('s'));
+        self.file(&path)
+    }
+
+    /// What is in a file, once it is there: files appear whole.
+    pub fn file(&mut self, path: &Path) -> String {
+        self.until("file", |_| std::fs::read_to_string(path).ok())
+    }
+
+    /// The path of a file in the program's folder, once it is there.
+    pub fn written(&mut self, name: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        self.until(name, |_| path.exists().then_some(()));
+        path
+    }
+
+    /// Asks the window to close, as its frame's button does.
+    pub fn close(&mut self) -> ExitStatus {
+        use x11rb::protocol::xproto::{ClientMessageEvent, EventMask};
+        let atom = |name: &[u8]| self.connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
+        let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
+        let message = ClientMessageEvent::new(32, self.window, protocols, [delete, 0, 0, 0, 0]);
+        self.connection.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap().check().unwrap();
+        self.ended()
+    }
+
+    /// Waits for the program's end.
+    pub fn ended(&mut self) -> ExitStatus {
+        self.until("end", |desk| desk.program.try_wait().unwrap())
+    }
+
+    /// What it has said on stderr, once it has ended.
+    pub fn complaints(&mut self) -> String {
+        let mut said = String::new();
+        let mut stderr = self.program.stderr.take().unwrap();
+        std::io::Read::read_to_string(&mut stderr, &mut said).unwrap();
+        said
+    }
+}
