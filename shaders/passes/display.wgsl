@@ -3,7 +3,7 @@
 
 // Whether there are filtered shares of radiance that are left; otherwise what is known to be blocked is subtracted.
 override DISPLAY_FILTERED: bool = false;
-// Whether what is shown has more pixels than what was drawn, or than the shares.
+// Whether what is shown has more pixels than what was drawn.
 override DISPLAY_SCALED: bool = false;
 // What a pipeline shows with. 0: clamped; 1: Khronos PBR Neutral; 2: AgX.
 override DISPLAY_TONE_CURVE: u32 = 0;
@@ -131,18 +131,10 @@ fn display_shared(radiance: vec4f, share: vec3f) -> vec4f {
     return vec4f(radiance.rgb * share * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
 }
 
-// Of this size where there are shares, for they may be of another one.
-fn display_single(pixel: vec2u) -> vec4f {
-    if DISPLAY_FILTERED {
-        return textureLoad(display_radiance, pixel, 0);
-    }
-    return display_at(display_radiance, pixel);
-}
-
 @fragment
 fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    return display_srgb(display_seen(display_shared(display_single(pixel), display_share(pixel))));
+    return display_srgb(display_seen(display_shared(display_at(display_radiance, pixel), display_share(pixel))));
 }
 
 // Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.

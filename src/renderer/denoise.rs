@@ -54,7 +54,7 @@ pub(super) struct DenoisePass {
 }
 
 /// Of a picture's size.
-pub(super) struct Shares([TextureView; 2]);
+pub(super) struct Shares(pub [TextureView; 2]);
 
 impl Shares {
     pub fn new(device: &Device, size: [u32; 2]) -> Self {
@@ -85,27 +85,25 @@ impl DenoisePass {
         Self { pipelines: [pipeline(false), pipeline(true)], layout, uniforms }
     }
 
-    /// Filters the shares of the means of so many samples, by the guide; what the last of the passes leaves, if there are any.
-    /// `varied`: lights have patterns.
-    pub fn encode<'a>(
+    /// Filters the shares of the means of so many samples, by the guide, in this number of passes, at least one; in which of the textures
+    /// the last leaves them. `varied`: lights have patterns.
+    pub fn encode(
         &mut self,
         (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
         (means, samples, guide, varied): (&Means, u32, &TextureView, bool),
-        shares: &'a Shares,
-    ) -> Option<&'a TextureView> {
+        (shares, passes): (&Shares, usize),
+    ) -> usize {
         let [least, most] = SHARES[usize::from(varied)];
         let uniforms = Uniforms { neighbours: neighbours(samples), least, most };
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
-        let mut last = None;
-        for index in 0..passes(samples) {
+        for index in 0..passes {
             let [output, before] = [&shares.0[index % 2], &shares.0[(index + 1) % 2]];
             let textures = [(1, &means.radiance), (2, &means.blocked), (3, guide), (4, before)];
             let bind_group = fullscreen::bind_group(device, &self.layout, Some(self.uniforms.binding()), &textures);
             fullscreen::run(encoder, (&self.pipelines[index.min(1)], &bind_group), &[output], None);
-            last = Some(output);
         }
-        last
+        (passes - 1) % 2
     }
 }
 

@@ -73,10 +73,10 @@ pub(super) enum Source {
 /// What of a frame is shown.
 pub(super) enum Drawn<'a> {
     Targets(&'a Targets),
-    /// The same where shadows are those of a smaller picture: the shares that are left, and its size.
+    /// The same with shadows: the shares that are left.
     Shared {
         targets: &'a Targets,
-        shares: (&'a TextureView, [u32; 2]),
+        shares: &'a TextureView,
         /// What exposed radiance is multiplied by.
         gain: f32,
     },
@@ -154,8 +154,8 @@ impl DisplayPass {
             Drawn::Targets(targets) => {
                 (vec![(binding, &targets.radiance), (4, &self.nothing)], scale(&targets.size), 1.0, false)
             }
-            Drawn::Shared { targets, shares: (shares, size), gain } => {
-                (vec![(binding, &targets.radiance), (4, shares)], scale(size), *gain, true)
+            Drawn::Shared { targets, shares, gain } => {
+                (vec![(binding, &targets.radiance), (4, shares)], scale(&targets.size), *gain, true)
             }
             Drawn::Shadowed { means, shares, size, gain } => {
                 let textures = [(1, &means.radiance), (3, &means.blocked), (4, shares.unwrap_or(&means.blocked))];

@@ -28,6 +28,7 @@ mod pieces;
 mod pipelines;
 mod prior_sheens;
 mod readback;
+mod reprojection;
 mod resident;
 mod sample;
 mod shader;
@@ -56,6 +57,7 @@ use std::ops::Range;
 use blended::Blended;
 use display::{DisplayPass, Source};
 use pipelines::Stage;
+use reprojection::Reprojection;
 use resident::Resident;
 use shadowed::{Formats, Shadowed};
 use shadows::Shadows;
@@ -128,6 +130,8 @@ pub struct Renderer {
     targets_made: usize,
     shadows: Shadows,
     shadowed: Shadowed,
+    /// There where it has been needed.
+    reprojection: Option<Reprojection>,
     latest: Latest,
 }
 
@@ -136,8 +140,8 @@ pub struct Renderer {
 enum Latest {
     Unshadowed,
     Shadowed,
-    /// Without shadows, to be shown with those of the picture before it; and by what its radiance was multiplied.
-    Sharpened {
+    /// With the shadows of an earlier picture; and by what its radiance was multiplied.
+    Remembering {
         gain: f32,
     },
 }
@@ -164,6 +168,7 @@ impl Renderer {
             targets_made: 0,
             shadows: Shadows::default(),
             shadowed: Shadowed::new(gpu, format, formats),
+            reprojection: None,
             latest: Latest::Unshadowed,
         })
     }
@@ -231,7 +236,7 @@ impl Renderer {
         if let Some((blockers, opacities)) = self.shadows.bound().filter(|_| settings.shadows) {
             let stage = sample.stage(opacities);
             self.surfaces.prepare(gpu, &self.resident, &[Stage::Depth, stage]);
-            let (targets, gain) = self.shadowed.begin(gpu, size, sample.index, showing.gain());
+            let (targets, gain) = self.shadowed.begin(gpu, (view, size), sample.index, showing.gain());
             let frame = (view, settings, gain, sample);
             self.surfaces.encode_shadowed(&gpu.queue, encoder, (targets, stage, blockers), things, frame, &rows);
             if rows.end == size[1] {
@@ -244,23 +249,30 @@ impl Renderer {
         self.latest = Latest::Unshadowed;
     }
 
-    /// Draws what a small picture with shadows, which was drawn last, shows in as many pixels as these, without shadows; `show` shows it
-    /// with those of the small one, so that it is sharp long before its own are there. Draws nothing, and returns false, where those are
-    /// not to be had: shadows of many samples, and of some adapters, are not filtered.
-    pub fn sharpen(
+    /// Draws without shadows what is shown with those of the last picture that has its own: looked up where they were seen, which is
+    /// quick, and right as long as neither lights nor things have moved. What was not seen there is shaded as what was seen nearest to
+    /// it. Where [`Self::remembers`] says no it must not be called.
+    pub fn draw_remembering(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         size: [u32; 2],
         frame: (&View, &Settings, Showing),
-    ) -> bool {
-        let has_shares = self.latest == Latest::Shadowed && self.shadowed.has_shares();
-        if has_shares {
-            self.blended.prepare(gpu, &self.resident.draws, frame.0);
-            self.draw_unshadowed(gpu, encoder, size, frame);
-            self.latest = Latest::Sharpened { gain: frame.2.gain() };
+    ) {
+        self.blended.prepare(gpu, &self.resident.draws, frame.0);
+        self.draw_unshadowed(gpu, encoder, size, frame);
+        let varied = self.resident.draws.has_patterns();
+        if let (Some(seen), Some(targets)) = (self.shadowed.seen(gpu, encoder, varied), &self.targets) {
+            let reprojection = self.reprojection.get_or_insert_with(|| Reprojection::new(&gpu.device));
+            reprojection.encode((&gpu.device, &gpu.queue), encoder, (frame.0, targets), &seen);
+            self.latest = Latest::Remembering { gain: frame.2.gain() };
         }
-        has_shares
+    }
+
+    /// Whether there is a picture with shadows that can be looked up: the adapter has to draw what it takes, and pictures have to have
+    /// one sample a pixel.
+    pub fn remembers(&self, settings: &Settings) -> bool {
+        self.has_shadows(settings) && self.format.radiance.samples == 1 && self.shadowed.is_seen()
     }
 
     fn draw_unshadowed(
@@ -313,22 +325,18 @@ impl Renderer {
         output: (&wgpu::TextureView, Rect),
         showing: Showing,
     ) {
-        let varied = self.resident.draws.has_patterns();
         if self.latest == Latest::Shadowed {
+            let varied = self.resident.draws.has_patterns();
             return self.shadowed.show(gpu, encoder, output, (showing, varied));
         }
         let Some(targets) = &self.targets else { return };
-        let shares = match self.latest {
-            Latest::Sharpened { gain } => {
-                self.shadowed.shares(gpu, encoder, varied).map(|shares| (shares, showing.gain() / gain))
+        let shares = self.reprojection.as_ref().and_then(Reprojection::shares);
+        let drawn = match (self.latest, shares) {
+            (Latest::Remembering { gain }, Some(shares)) => {
+                display::Drawn::Shared { targets, shares, gain: showing.gain() / gain }
             }
-            Latest::Shadowed | Latest::Unshadowed => None,
+            _ => display::Drawn::Targets(targets),
         };
-        let drawn = shares.map_or(display::Drawn::Targets(targets), |(shares, gain)| display::Drawn::Shared {
-            targets,
-            shares,
-            gain,
-        });
         self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
     }
 }

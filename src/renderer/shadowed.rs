@@ -1,15 +1,16 @@
 //! Frames with shadows: samples, their means, and what is shown of them.
 //!
 //! There may be two pictures of different sizes: while things move a small one is shown, and goes on to be shown until the first
-//! sample of a larger one is there.
+//! sample of a larger one is there. And while things move little, the last picture's shadows are looked up in it.
 
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 use super::accumulation::{AccumulationPass, Means};
 use super::denoise::{DenoisePass, Shares, passes};
 use super::display::{DisplayPass, Drawn, Source};
+use super::reprojection::Seen;
 use super::targets::{RadianceFormat, ShadowedTargets};
-use super::{Format, Gpu, Rect, Showing};
+use super::{Format, Gpu, Rect, Showing, View};
 
 /// What frames with shadows are drawn with, and the last of them.
 pub(super) struct Shadowed {
@@ -51,6 +52,10 @@ struct Picture {
     /// Those after the last sample, and those before it.
     means: [Means; 2],
     shares: Option<Shares>,
+    /// Which of the shares are filtered, and after how many samples that was done.
+    filtered: Option<(usize, u32)>,
+    /// From where it is seen.
+    view: View,
     samples: u32,
     /// By which radiance was multiplied.
     gain: f32,
@@ -82,7 +87,13 @@ impl Shadowed {
 
     /// The targets for sample `index` of a picture of this size, and what its radiance is multiplied by: of the first what is
     /// asked for, of others what the first was.
-    pub fn begin(&mut self, gpu: &Gpu, size: [u32; 2], index: u32, gain: f32) -> (&ShadowedTargets, f32) {
+    pub fn begin(
+        &mut self,
+        gpu: &Gpu,
+        (view, size): (&View, [u32; 2]),
+        index: u32,
+        gain: f32,
+    ) -> (&ShadowedTargets, f32) {
         let device = &gpu.device;
         let is_shown = self.pictures[self.shown].as_ref().is_none_or(|picture| picture.size == size);
         self.drawn = if is_shown { self.shown } else { 1 - self.shown };
@@ -97,11 +108,13 @@ impl Shadowed {
             targets: ShadowedTargets::new(device, size, (radiance, guide)),
             means: [(); 2].map(|()| Means::new(device, size, means)),
             shares: guide.map(|_| Shares::new(device, size)),
+            filtered: None,
+            view: *view,
             samples: 0,
             gain,
         });
         if index == 0 {
-            (picture.samples, picture.gain) = (0, gain);
+            (picture.samples, picture.gain, picture.view) = (0, gain, *view);
         }
         (&picture.targets, picture.gain)
     }
@@ -115,6 +128,7 @@ impl Shadowed {
         self.accumulation.encode((&gpu.device, &gpu.queue), encoder, sample, [after, before]);
         picture.means.swap(0, 1);
         picture.samples += 1;
+        picture.filtered = None;
     }
 
     /// Shows the means in the rectangle `place` of the output; of few samples, shares of radiance are filtered first. `varied`: lights
@@ -126,40 +140,49 @@ impl Shadowed {
         output: (&TextureView, Rect),
         (showing, varied): (Showing, bool),
     ) {
-        let Some(picture) = &self.pictures[self.shown] else { return };
-        let shares = shares(picture, &mut self.filter, gpu, encoder, varied);
+        let Some(picture) = &mut self.pictures[self.shown] else { return };
+        let passes = passes(picture.samples);
+        let shares = if passes > 0 { picture.filter(&mut self.filter, gpu, encoder, varied) } else { None };
+        let picture = &*picture;
+        let shares = shares.zip(picture.shares.as_ref()).map(|(index, shares)| &shares.0[index]);
         let gain = showing.gain() / picture.gain;
         let drawn = Drawn::Shadowed { means: &picture.means[0], shares, size: picture.size, gain };
         self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
     }
 
-    /// Whether shadows of the picture that is shown are filtered.
-    pub fn has_shares(&self) -> bool {
-        let is_filtered = |picture: &Picture| picture.shares.is_some() && passes(picture.samples) > 0;
-        self.filter.is_some() && self.pictures[self.shown].as_ref().is_some_and(is_filtered)
+    /// What is known of the shadows in the picture that is shown; none where there is none, or no filter.
+    pub fn seen(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder, varied: bool) -> Option<Seen<'_>> {
+        let picture = self.pictures[self.shown].as_mut()?;
+        let index = picture.filter(&mut self.filter, gpu, encoder, varied)?;
+        let (shares, guide) = (&picture.shares.as_ref()?.0[index], picture.targets.guide.as_ref()?);
+        Some(Seen { view: &picture.view, size: picture.size, guide, shares })
     }
 
-    /// The shares of radiance that are left in the picture that is shown, and its size; none where they are not filtered.
-    pub fn shares(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut CommandEncoder,
-        varied: bool,
-    ) -> Option<(&TextureView, [u32; 2])> {
-        let picture = self.pictures[self.shown].as_ref()?;
-        shares(picture, &mut self.filter, gpu, encoder, varied).map(|shares| (shares, picture.size))
+    /// Whether there is a picture whose shadows can be looked up.
+    pub fn is_seen(&self) -> bool {
+        self.filter.is_some() && self.pictures[self.shown].as_ref().is_some_and(|picture| picture.samples > 0)
     }
 }
 
-/// The shares of a picture's radiance that are left, filtered; none where there is no filter, or where samples are many.
-fn shares<'a>(
-    picture: &'a Picture,
-    filter: &mut Option<DenoisePass>,
-    gpu: &Gpu,
-    encoder: &mut CommandEncoder,
-    varied: bool,
-) -> Option<&'a TextureView> {
-    let (shares, guide) = picture.shares.as_ref().zip(picture.targets.guide.as_ref())?;
-    let sampled = (&picture.means[0], picture.samples, guide, varied);
-    filter.as_mut()?.encode((&gpu.device, &gpu.queue), encoder, sampled, shares)
+impl Picture {
+    /// Filters the shares, where that has not been done since the last sample; which of them are filtered, if there is a filter.
+    fn filter(
+        &mut self,
+        filter: &mut Option<DenoisePass>,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        varied: bool,
+    ) -> Option<usize> {
+        let (filter, shares, guide) = (filter.as_mut()?, self.shares.as_ref()?, self.targets.guide.as_ref()?);
+        if let Some((index, samples)) = self.filtered
+            && samples == self.samples
+        {
+            return Some(index);
+        }
+        let sampled = (&self.means[0], self.samples, guide, varied);
+        let shares = (shares, passes(self.samples).max(1));
+        let index = filter.encode((&gpu.device, &gpu.queue), encoder, sampled, shares);
+        self.filtered = Some((index, self.samples));
+        Some(index)
+    }
 }

@@ -129,7 +129,7 @@ impl Targets {
         Self {
             size,
             radiance: attachment(device, "radiance", (size, samples, texture), TextureUsages::TEXTURE_BINDING),
-            depth: attachment(device, "depth", (size, samples, DEPTH_FORMAT), TextureUsages::empty()),
+            depth: attachment(device, "depth", (size, samples, DEPTH_FORMAT), TextureUsages::TEXTURE_BINDING),
         }
     }
 }

@@ -14,17 +14,21 @@ pub enum Change {
     /// The view, the ambient light, or which lobes are summed has changed, or whether there are shadows: the scene is drawn
     /// again.
     Drawn,
-    /// Materials or lights have changed, or whether lights are visible: they are sent to the device first.
-    Scene,
+    /// Materials have changed: they are sent to the device first.
+    Materials,
+    /// Lights have changed, or whether they are visible: they are sent to the device first, and shadows lie elsewhere.
+    Lights,
 }
 
 impl Change {
     /// What it takes to show `after` where `before` is shown.
     pub fn between(before: &Edits, after: &Edits) -> Self {
-        let things = |edits: &Edits| (edits.every_material, edits.settings().lights_visible);
+        let are_seen = |edits: &Edits| edits.settings().lights_visible;
         let drawn = |edits: &Edits| Settings { tone: Default::default(), exposure: 0.0, ..edits.settings() };
-        if things(before) != things(after) || before.materials != after.materials || before.lights != after.lights {
-            Self::Scene
+        if are_seen(before) != are_seen(after) || before.lights != after.lights {
+            Self::Lights
+        } else if before.every_material != after.every_material || before.materials != after.materials {
+            Self::Materials
         } else if before.camera != after.camera || drawn(before) != drawn(after) {
             Self::Drawn
         } else if before.exposure != after.exposure {
@@ -58,10 +62,10 @@ mod tests {
             (Change::Drawn, Edits { shadows: Some(false), ..edits() }),
             (Change::Drawn, Edits { ambient: Some(Vec3::ONE), ..edits() }),
             (Change::Drawn, Edits { lobes: Some(Lobes::NONE), ..edits() }),
-            (Change::Scene, Edits { lights_visible: Some(false), ..edits() }),
-            (Change::Scene, Edits { every_material: material, ..edits() }),
-            (Change::Scene, Edits { materials: [(0, material)].into(), ..edits() }),
-            (Change::Scene, Edits { lights: [(0, light)].into(), ..edits() }),
+            (Change::Lights, Edits { lights_visible: Some(false), ..edits() }),
+            (Change::Materials, Edits { every_material: material, ..edits() }),
+            (Change::Materials, Edits { materials: [(0, material)].into(), ..edits() }),
+            (Change::Lights, Edits { lights: [(0, light)].into(), ..edits() }),
         ] {
             assert_eq!(Change::between(&edits(), &after), change, "{after:?}");
             assert_eq!(Change::between(&after, &edits()), change, "{after:?}");

@@ -1,13 +1,15 @@
 //! The picture of the scene: what of it is drawn when, from the first coarse pixels to the last sample.
 
+use glam::Vec3;
+
 use super::change::Change;
 use super::frame_time::FrameTimes;
 use super::native::{self, Task};
 use super::order::{Left, Report, Shot};
-use super::resting::{Resting, Step};
+use super::resting::{Can, Resting, Step};
 use crate::picture::Blank;
 use crate::renderer::{Built, Format, Gpu, Rect, RenderError, Renderer, Sample, Showing, View};
-use crate::scene::Settings;
+use crate::scene::{Camera, Settings};
 use crate::table::SheenTable;
 
 /// Triangles that are sorted for shadows within a frame; more are on a thread of their own.
@@ -32,6 +34,22 @@ pub(super) struct Picture {
     is_checked: bool,
     /// Whether the device has what another picture was drawn with.
     is_foreign: bool,
+    /// Whose shadows can be looked up; none where lights or things have moved since.
+    remembered: Option<Camera>,
+    /// The middle of what is lit, metres.
+    center: Vec3,
+}
+
+/// How far an eye may move for shadows to be looked up where they were seen from there, as a share of its distance from what is seen, and
+/// how far it may turn, in radians: beyond that too much is seen that was hidden.
+const NEAR: [f32; 2] = [0.2, 0.3];
+
+/// Whether two cameras see nearly the same.
+fn is_near(camera: &Camera, other: &Camera, center: Vec3) -> bool {
+    let [eye, other_eye] = [camera, other].map(|camera| camera.world_from_camera.w_axis.truncate());
+    let [back, other_back] = [camera, other].map(|camera| camera.world_from_camera.z_axis.truncate());
+    let moved = eye.distance(other_eye) / other_eye.distance(center).max(f32::MIN_POSITIVE);
+    moved < NEAR[0] && back.angle_between(other_back) < NEAR[1]
 }
 
 impl Picture {
@@ -40,20 +58,25 @@ impl Picture {
         Ok(Self {
             renderer: Renderer::new(gpu, format, table, &shot.drawn())?,
             size: [0; 2],
-            undrawn: Change::Scene,
+            undrawn: Change::Lights,
             resting: Resting::new(slow),
             times: FrameTimes::default(),
             building: None,
             is_checked: false,
             is_foreign: false,
+            remembered: None,
+            center: shot.scene.subject().center(),
         })
     }
 
     /// Takes in what has changed. To be called before anything else is done for an order.
     pub fn receive(&mut self, gpu: &Gpu, shot: &Shot, size: [u32; 2]) -> Result<(), RenderError> {
-        let change = if std::mem::take(&mut self.is_foreign) { Change::Scene } else { shot.change };
-        if change == Change::Scene {
+        let change = if std::mem::take(&mut self.is_foreign) { Change::Lights } else { shot.change };
+        if change >= Change::Materials {
             self.renderer.update(gpu, &shot.drawn())?;
+        }
+        if change == Change::Lights {
+            self.remembered = None;
         }
         let resized = if size == self.size { Change::None } else { Change::Drawn };
         self.size = size;
@@ -136,20 +159,32 @@ impl Picture {
     fn draw(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, report: &mut Report) -> bool {
         self.resting = self.resting_after(shot);
         self.undrawn = Change::None;
-        let (shadowed, height) = (self.has_shadows(shot), self.size[1]);
-        let step = self.resting.step(height, shadowed, self.renderer.is_scaled(&shot.settings));
+        let is_near = self.remembered.as_ref().is_some_and(|camera| is_near(&shot.camera, camera, self.center));
+        let can = Can {
+            shadow: self.has_shadows(shot),
+            scale: self.renderer.is_scaled(&shot.settings),
+            remember: is_near && self.renderer.remembers(&shot.settings),
+        };
+        let height = self.size[1];
+        let step = self.resting.step(height, &can);
         if step == Step::Enough {
             return false;
         }
         let (made, start) = (self.renderer.made(), native::now());
-        if !self.encode(gpu, shot, exposure, &step) {
-            self.resting.skip_sharp();
-            return false;
-        }
+        self.encode(gpu, shot, exposure, &step);
         native::finish(gpu);
         let time = (made == self.renderer.made()).then(|| start.elapsed());
-        self.resting.drawn(&step, (height, shadowed), time);
-        let is_first = matches!(&step, Step::Coarse(_)) || matches!(&step, Step::Rows(0, rows) if *rows == (0..height));
+        self.resting.drawn(&step, (height, &can), time);
+        let is_whole = |rows: &std::ops::Range<u32>| *rows == (0..height);
+        let is_first = match &step {
+            Step::Coarse(_) => true,
+            Step::Remember(divisor) => *divisor > 1,
+            Step::Rows(index, rows) => *index == 0 && is_whole(rows),
+            Step::Enough => false,
+        };
+        if matches!(&step, Step::Coarse(_)) || matches!(&step, Step::Rows(0, rows) if rows.end == height) {
+            self.remembered = Some(shot.camera.clone());
+        }
         if let Some(time) = time.filter(|_| is_first) {
             self.times.add(time);
             report.frame_time = self.times.median();
@@ -157,27 +192,24 @@ impl Picture {
         !matches!(step, Step::Rows(_, rows) if rows.end < height)
     }
 
-    /// Has the device draw a step; false where it can't.
-    fn encode(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, step: &Step) -> bool {
+    /// Has the device draw a step.
+    fn encode(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, step: &Step) {
         let full = self.size;
         let view = View::new(&shot.camera, full, Rect::full(full));
         let showing = Showing::Shown { exposure, tone: shot.settings.tone };
         let frame = (&view, &shot.settings, showing);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let sample = |index| Sample { index, ..SAMPLE };
+        let fewer = |divisor: u32| full.map(|side| side.div_ceil(divisor));
         match step {
-            Step::Coarse(divisor) => {
-                let size = full.map(|side| side.div_ceil(*divisor));
-                self.renderer.draw(gpu, &mut encoder, size, frame, &sample(0));
-            }
-            Step::Sharp if !self.renderer.sharpen(gpu, &mut encoder, full, frame) => return false,
-            Step::Sharp | Step::Enough => {}
+            Step::Coarse(divisor) => self.renderer.draw(gpu, &mut encoder, fewer(*divisor), frame, &SAMPLE),
+            Step::Remember(divisor) => self.renderer.draw_remembering(gpu, &mut encoder, fewer(*divisor), frame),
             Step::Rows(index, rows) => {
-                self.renderer.draw_rows(gpu, &mut encoder, full, frame, &sample(*index), rows.clone());
+                let sample = Sample { index: *index, ..SAMPLE };
+                self.renderer.draw_rows(gpu, &mut encoder, full, frame, &sample, rows.clone());
             }
+            Step::Enough => {}
         }
         gpu.queue.submit([encoder.finish()]);
-        true
     }
 
     /// Sees to what shadows take, and whether the picture may be drawn: where it is built on a thread of its own the first picture
@@ -187,7 +219,7 @@ impl Picture {
             && let Some(built) = task.outcome()
         {
             self.renderer.receive(gpu, built);
-            self.undrawn = Change::Scene;
+            self.undrawn = Change::Lights;
         }
         // At rest nothing can have become stale.
         if self.building.is_none()

@@ -30,7 +30,7 @@ impl Screen {
             shapes: Vec::new(),
             pixels_per_point: 1.0,
             picture: Rect::ZERO,
-            change: Change::Scene,
+            change: Change::Lights,
             stale: true,
             is_painted_anew: true,
         }
@@ -211,12 +211,12 @@ mod tests {
     fn changes_add_up_until_they_are_shown() {
         let mut screen = Screen::new();
         screen.presented();
-        for change in [Change::Shown, Change::Scene, Change::Drawn, Change::None] {
+        for change in [Change::Shown, Change::Lights, Change::Drawn, Change::None] {
             let layout = Layout { change, ..Layout::default() };
             screen.take(&layout, FullOutput { pixels_per_point: 1.0, ..FullOutput::default() }).clear();
             assert!(screen.is_stale());
         }
-        assert_eq!(screen.change, Change::Scene);
+        assert_eq!(screen.change, Change::Lights);
         screen.presented();
         assert_eq!((screen.change, screen.is_stale()), (Change::None, false));
     }

@@ -45,7 +45,7 @@ fn the_alpha_slider_is_alpha_itself_and_reset_takes_it_back() {
     let mut window = Window::new(scene);
     let slider = window.places(Role::Slider)[0];
     let change = window.drag(PointerButton::Primary, slider.left_center(), slider.right_center() - vec2(20.0, 0.0));
-    assert_eq!(change, Change::Scene);
+    assert_eq!(change, Change::Materials);
     let alpha = window.state.edits.materials[&0].alpha.unwrap();
     assert!(alpha > 0.6, "{alpha}");
     // Whatever the texture: the same value as the flag's.
@@ -56,7 +56,7 @@ fn the_alpha_slider_is_alpha_itself_and_reset_takes_it_back() {
     assert_eq!(window.state.scene.materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.3)));
     assert_eq!(window.state.scene.materials[0].texture(TextureSlot::SheenRoughness), Some(texture));
     let reset = window.place(Role::Button, "Reset").center();
-    assert_eq!(window.click(reset), Change::Scene);
+    assert_eq!(window.click(reset), Change::Materials);
     assert_eq!(window.state.edits, Edits::default());
 }
 
@@ -66,7 +66,7 @@ fn what_is_set_for_a_material_is_for_it_alone() {
     let before = window.state.edits.clone();
     let share = window.in_row("base's share", Role::Slider)[0];
     let change = window.drag(PointerButton::Primary, share.left_center(), share.center());
-    assert_eq!(change, Change::Scene);
+    assert_eq!(change, Change::Materials);
     assert!(matches!(window.state.edits.materials[&0].layering, Some(Layering::Manual(share)) if share != 0.3));
     assert_eq!((window.state.edits.materials.len(), window.state.edits.every_material), (1, before.every_material));
 }
@@ -78,7 +78,7 @@ fn a_sheen_is_added_where_there_is_none() {
     scene.materials[0].alpha_mode = AlphaMode::Opaque;
     let mut window = Window::new(scene);
     let button = window.place(Role::Button, "Add a sheen").center();
-    assert_eq!(window.click(button), Change::Scene);
+    assert_eq!(window.click(button), Change::Materials);
     assert_eq!(window.state.drawn().materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.5)));
 }
 
