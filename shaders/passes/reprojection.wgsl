@@ -67,7 +67,7 @@ fn reprojection_fragment(@builtin(position) position: vec4f) -> @location(0) vec
     }
     // It was seen well: its weights are about 1 each where its surface is seen head on, and less where it is steep.
     if sum.weight < 0.5 {
-        for (var ring = 0; ring < 3; ring++) {
+        for (var ring = 0; ring < 4; ring++) {
             let radius = 2 << u32(2 * ring);
             for (var index = 0; index < 9; index++) {
                 sum = reprojection_add(sum, low + radius * vec2i(index % 3 - 1, index / 3 - 1), place, near);

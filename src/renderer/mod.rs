@@ -236,7 +236,7 @@ impl Renderer {
         if let Some((blockers, opacities)) = self.shadows.bound().filter(|_| settings.shadows) {
             let stage = sample.stage(opacities);
             self.surfaces.prepare(gpu, &self.resident, &[Stage::Depth, stage]);
-            let (targets, gain) = self.shadowed.begin(gpu, (view, size), sample.index, showing.gain());
+            let (targets, gain) = self.shadowed.begin(gpu, (view, size), (sample.index, &rows), showing.gain());
             let frame = (view, settings, gain, sample);
             self.surfaces.encode_shadowed(&gpu.queue, encoder, (targets, stage, blockers), things, frame, &rows);
             if rows.end == size[1] {

@@ -3,6 +3,8 @@
 //! There may be two pictures of different sizes: while things move a small one is shown, and goes on to be shown until the first
 //! sample of a larger one is there. And while things move little, the last picture's shadows are looked up in it.
 
+use std::ops::Range;
+
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 use super::accumulation::{AccumulationPass, Means};
@@ -51,6 +53,8 @@ struct Picture {
     targets: ShadowedTargets,
     /// Those after the last sample, and those before it.
     means: [Means; 2],
+    /// What the filter goes by: the guide of the last sample. The targets' is that of the one that is being drawn.
+    guide: Option<TextureView>,
     shares: Option<Shares>,
     /// Which of the shares are filtered, and after how many samples that was done.
     filtered: Option<(usize, u32)>,
@@ -85,18 +89,22 @@ impl Shadowed {
         self.pictures[self.shown].as_ref().map_or(0, |picture| picture.samples)
     }
 
-    /// The targets for sample `index` of a picture of this size, and what its radiance is multiplied by: of the first what is
+    /// The targets for these rows of sample `index` of a picture of this size, and what its radiance is multiplied by: of the first what is
     /// asked for, of others what the first was.
     pub fn begin(
         &mut self,
         gpu: &Gpu,
         (view, size): (&View, [u32; 2]),
-        index: u32,
+        (index, rows): (u32, &Range<u32>),
         gain: f32,
     ) -> (&ShadowedTargets, f32) {
         let device = &gpu.device;
-        let is_shown = self.pictures[self.shown].as_ref().is_none_or(|picture| picture.size == size);
-        self.drawn = if is_shown { self.shown } else { 1 - self.shown };
+        if index == 0 && rows.start == 0 {
+            // What takes long is drawn apart, so that what is shown can be looked up meanwhile.
+            let is_apart = rows.end < size[1];
+            let fits = self.pictures[self.shown].as_ref().is_none_or(|picture| picture.size == size);
+            self.drawn = if fits && !is_apart { self.shown } else { 1 - self.shown };
+        }
         let picture = &mut self.pictures[self.drawn];
         if picture.as_ref().is_none_or(|picture| picture.size != size) {
             self.pictures_made += 1;
@@ -107,6 +115,7 @@ impl Shadowed {
             size,
             targets: ShadowedTargets::new(device, size, (radiance, guide)),
             means: [(); 2].map(|()| Means::new(device, size, means)),
+            guide: guide.map(|guide| ShadowedTargets::guide(device, size, guide)),
             shares: guide.map(|_| Shares::new(device, size)),
             filtered: None,
             view: *view,
@@ -127,6 +136,7 @@ impl Shadowed {
         let sample = (&picture.targets, picture.samples);
         self.accumulation.encode((&gpu.device, &gpu.queue), encoder, sample, [after, before]);
         picture.means.swap(0, 1);
+        std::mem::swap(&mut picture.guide, &mut picture.targets.guide);
         picture.samples += 1;
         picture.filtered = None;
     }
@@ -154,7 +164,7 @@ impl Shadowed {
     pub fn seen(&mut self, gpu: &Gpu, encoder: &mut CommandEncoder, varied: bool) -> Option<Seen<'_>> {
         let picture = self.pictures[self.shown].as_mut()?;
         let index = picture.filter(&mut self.filter, gpu, encoder, varied)?;
-        let (shares, guide) = (&picture.shares.as_ref()?.0[index], picture.targets.guide.as_ref()?);
+        let (shares, guide) = (&picture.shares.as_ref()?.0[index], picture.guide.as_ref()?);
         Some(Seen { view: &picture.view, size: picture.size, guide, shares })
     }
 
@@ -173,7 +183,7 @@ impl Picture {
         encoder: &mut CommandEncoder,
         varied: bool,
     ) -> Option<usize> {
-        let (filter, shares, guide) = (filter.as_mut()?, self.shares.as_ref()?, self.targets.guide.as_ref()?);
+        let (filter, shares, guide) = (filter.as_mut()?, self.shares.as_ref()?, self.guide.as_ref()?);
         if let Some((index, samples)) = self.filtered
             && samples == self.samples
         {

@@ -89,9 +89,14 @@ impl ShadowedTargets {
             size,
             radiance: bound("radiance", format),
             blocked: bound("blocked", format),
-            guide: guide.map(|format| bound("guide", format)),
+            guide: guide.map(|format| Self::guide(device, size, format)),
             depth: attachment(device, "depth", (size, 1, DEPTH_FORMAT), TextureUsages::empty()),
         }
+    }
+
+    /// Another of what the filter of shares goes by.
+    pub fn guide(device: &Device, size: [u32; 2], format: TextureFormat) -> TextureView {
+        attachment(device, "guide", (size, 1, format), TextureUsages::TEXTURE_BINDING)
     }
 }
 
