@@ -22,6 +22,7 @@ mod materials;
 mod meter;
 mod numbers;
 mod offscreen;
+mod outline;
 pub mod paint_order;
 mod patterns;
 mod pieces;
@@ -53,6 +54,7 @@ pub use view::{Rect, View};
 
 use blended::Blended;
 use display::{DisplayPass, Source};
+use outline::OutlinePass;
 use pipelines::Stage;
 use resident::Resident;
 use shadowed::{Formats, Shadowed};
@@ -126,6 +128,8 @@ pub struct Renderer {
     targets_made: usize,
     shadows: Shadows,
     shadowed: Shadowed,
+    /// There from the first outline on.
+    outline: Option<OutlinePass>,
     /// Whether what was drawn last has shadows.
     is_shadowed: bool,
 }
@@ -152,6 +156,7 @@ impl Renderer {
             targets_made: 0,
             shadows: Shadows::default(),
             shadowed: Shadowed::new(gpu, format, formats),
+            outline: None,
             is_shadowed: false,
         })
     }
@@ -246,5 +251,19 @@ impl Renderer {
             let drawn = display::Drawn::Targets(targets);
             self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
         }
+    }
+
+    /// Draws the outline of what `view` shows of a material over a picture that is shown in a rectangle of the output.
+    pub fn outline(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        output: (&wgpu::TextureView, Rect),
+        view: &View,
+        material: usize,
+    ) {
+        let outline = self.outline.get_or_insert_with(|| OutlinePass::new(&gpu.device, self.format.output));
+        let pieces = (material, self.surfaces.triangles_a_pass);
+        outline.encode(gpu, encoder, output, (&self.resident, view), pieces);
     }
 }

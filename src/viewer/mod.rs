@@ -3,14 +3,19 @@
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
 mod change;
+mod commands;
 mod frame;
 mod frame_time;
+mod history;
+mod keys;
 mod layout;
 mod lights;
 mod material;
 mod native;
+mod navigate;
 mod notices;
 mod panel;
+mod pick;
 mod request;
 mod resting;
 mod screen;

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 
+use super::history::{History, Step};
+use super::navigate::Hands;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -33,8 +35,13 @@ pub struct State {
     pub keys_shown: bool,
     /// The material whose outline is shown for a moment.
     pub outlined: Option<usize>,
+    /// What the pointer and the keys are about in the picture.
+    pub hands: Hands,
+    pub history: History,
     /// The middle of what is lit, metres: a camera of the scene turns about it.
     center: Vec3,
+    /// The scene's diagonal, metres.
+    size: f32,
     /// The step of coordinates, metres: a power of ten, so small that some hundred of them cross the scene.
     step: f32,
 }
@@ -59,7 +66,10 @@ impl State {
             panel_hidden: false,
             keys_shown: false,
             outlined: None,
+            hands: Hands::default(),
+            history: History::new(&edits),
             center: scene.subject().center(),
+            size: (scene.bounds().diagonal() as f32).max(f32::MIN_POSITIVE),
             step: step(scene.bounds().diagonal()),
             scene,
             edits,
@@ -94,6 +104,30 @@ impl State {
             Some(CameraEdit::Orbit(orbit)) => orbit,
             _ => Orbit::new(&self.camera(), self.center),
         }
+    }
+
+    /// The scene's diagonal, metres.
+    pub fn size(&self) -> f32 {
+        self.size
+    }
+
+    /// Takes back the last change; the view stays.
+    pub fn undo(&mut self) {
+        if let Some(step) = self.history.undo().cloned() {
+            self.go_to(step);
+        }
+    }
+
+    /// Does again what was taken back last; the view stays.
+    pub fn redo(&mut self) {
+        if let Some(step) = self.history.redo().cloned() {
+            self.go_to(step);
+        }
+    }
+
+    fn go_to(&mut self, Step { edits, metered }: Step) {
+        self.edits = Edits { camera: self.edits.camera, ..edits };
+        self.metered = metered;
     }
 
     /// The step of coordinates in the scene, metres.
