@@ -111,11 +111,14 @@ impl Orbit {
                 self.target = (target + (1.0 - f64::from(*ymag / before)) * across).as_vec3();
             }
             Projection::Perspective { .. } => {
+                let nearest = f64::from(*range.start());
                 let offset = anchor.as_dvec3() - eye;
+                // What is not in front of the eye leaves it going straight ahead.
+                let offset = if offset.dot(back) < 0.0 { offset } else { -nearest * back };
                 let depth = -offset.dot(back);
                 let farthest = (depth / f64::from(*range.end())).min(1.0);
                 let factor = if factor < 1.0 { f64::from(factor).max(farthest) } else { factor.into() };
-                let stretch = depth.max((*range.start()).into()) / depth;
+                let stretch = depth.max(nearest) / depth;
                 let eye = eye + (1.0 - factor.recip()) * stretch * offset;
                 self.distance = within((f64::from(self.distance) / factor) as f32);
                 self.target = (eye - f64::from(self.distance) * back).as_vec3();
@@ -296,7 +299,11 @@ mod tests {
                 assert!((eye(&orbit) - before).dot(direction) > 1e-6, "{notch} to {anchor}");
             }
             assert!(eye(&orbit).distance(anchor) < 0.01 && orbit.distance >= 1e-4);
-            (0..400).for_each(|_| orbit.zoom(anchor, 0.8, &RANGE));
+            for _ in 0..400 {
+                let is_ahead = orbit.depth(anchor) > 1e-4;
+                let ahead = if is_ahead { anchor } else { eye(&orbit) + orbit.distance * direction };
+                orbit.zoom(ahead, 0.8, &RANGE);
+            }
             assert!(orbit.depth(anchor) < 2e4 && orbit.depth(anchor) > 5e3, "{}", orbit.depth(anchor));
         }
         let mut orbit = orthographic;

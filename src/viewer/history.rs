@@ -137,6 +137,6 @@ mod tests {
         (0..1500).for_each(|step| history.keep(&exposed(step as f32), None));
         let undone = std::iter::from_fn(|| history.undo().cloned()).last();
         assert_eq!(undone.map(|step| step.edits), Some(exposed(499.0)));
-        assert_eq!(std::iter::from_fn(|| history.can_redo().then(|| drop(history.redo()))).count(), MOST);
+        assert_eq!(std::iter::from_fn(|| history.redo().map(|_| ())).count(), MOST);
     }
 }

@@ -116,12 +116,14 @@ fn what_the_wheel_zooms_to_stays_under_the_pointer() {
 }
 
 #[test]
-fn the_wheel_is_never_stuck() {
+fn zooming_is_never_stuck() {
     for at in [ON, BESIDE] {
         let mut window = Window::new(scene(1.0));
+        window.pass(vec![Event::PointerMoved(at)]);
         for notch in 0..200 {
             let before = window.eye();
-            roll(&mut window, at, 1.0);
+            // As much as a notch; a wheel's comes in many small parts.
+            window.pass(vec![Event::Zoom(1.22)]);
             let moved = window.eye().distance(before);
             assert!(moved > 5e-6, "{moved} m with notch {notch} at {at}");
         }

@@ -140,7 +140,7 @@ fn the_list_fits_small_screens_and_scrolls() {
     let mut window = Window::new(scene(1.0));
     window.size = vec2(480.0, 320.0);
     window.press(Key::Questionmark);
-    (0..20).for_each(|_| drop(window.pass(vec![])));
+    window.rest(20);
     let list = window.context.memory(|memory| memory.area_rect(egui::Id::unique("keys"))).unwrap();
     assert!(Rect::from_min_size(Pos2::ZERO, window.size).contains_rect(list), "{list}");
     let last = ROWS[ROWS.len() - 1].what;
@@ -154,7 +154,7 @@ fn the_list_fits_small_screens_and_scrolls() {
     };
     window.pass(vec![Event::PointerMoved(list.center())]);
     window.pass(vec![scroll]);
-    (0..20).for_each(|_| drop(window.pass(vec![])));
+    window.rest(20);
     assert!(window.place(Role::Label, last).min.y < before - 50.0);
     // The picture below does not hear of it.
     assert_eq!(window.state.edits.camera, None);
@@ -169,7 +169,7 @@ fn the_panel_makes_way_in_narrow_windows_and_comes_back() {
     window.press(Key::H);
     assert_eq!(window.layout.picture.width(), wide);
     window.size = vec2(480.0, 320.0);
-    (0..3).for_each(|_| drop(window.pass(vec![])));
+    window.rest(3);
     assert_eq!(window.layout.picture, Rect::from_min_size(Pos2::ZERO, window.size));
     let button = window.place(Role::Button, "◀").center();
     window.click(button);
@@ -182,6 +182,6 @@ fn the_panel_makes_way_in_narrow_windows_and_comes_back() {
     assert_eq!(window.layout.picture.width(), 210.0);
     window.press(Key::H);
     window.size = vec2(1280.0, 720.0);
-    (0..3).for_each(|_| drop(window.pass(vec![])));
+    window.rest(3);
     assert_eq!(window.layout.picture.width(), wide);
 }

@@ -68,6 +68,13 @@ impl Window {
         self.layout.change
     }
 
+    /// So many passes in which nothing happens.
+    fn rest(&mut self, passes: usize) {
+        for _ in 0..passes {
+            self.pass(vec![]);
+        }
+    }
+
     /// The greatest change that a drag brings about.
     fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) -> Change {
         let modifiers = self.modifiers;
