@@ -49,10 +49,10 @@ pub const ROWS: &[Row] = &[
     row(Input::Drag(Modifiers::NONE, PointerButton::Primary), Command::Turn, "turn"),
     row(Input::Drag(Modifiers::SHIFT, PointerButton::Primary), Command::Pan, "pan"),
     row(Input::Drag(Modifiers::NONE, PointerButton::Middle), Command::Pan, "pan"),
-    row(Input::Drag(Modifiers::NONE, PointerButton::Secondary), Command::Pan, "pan; look around while flying"),
-    row(Input::Drag(Modifiers::COMMAND, PointerButton::Middle), Command::Zoom, "zoom"),
-    row(Input::Drag(Modifiers::ALT, PointerButton::Secondary), Command::Zoom, "zoom"),
+    row(Input::Drag(Modifiers::NONE, PointerButton::Secondary), Command::Pan, "pan"),
     row(Input::Wheel, Command::Zoom, "zoom to what is under the pointer"),
+    row(Input::Drag(Modifiers::COMMAND, PointerButton::Middle), Command::Zoom, "zoom to what is under the pointer"),
+    row(Input::Drag(Modifiers::ALT, PointerButton::Secondary), Command::Zoom, "zoom to what is under the pointer"),
     row(Input::Click, Command::Pick, "show the material in the panel"),
     row(Input::DoubleClick, Command::Centre, "centre on what is there"),
     row(press(Key::F), Command::Frame, "frame what was clicked, or all"),
@@ -64,7 +64,7 @@ pub const ROWS: &[Row] = &[
     row(Input::Unfocused(Key::ArrowRight), Command::TurnBy([ARROW, 0.0]), "turn"),
     row(Input::Unfocused(Key::ArrowUp), Command::TurnBy([0.0, -ARROW]), "turn"),
     row(Input::Unfocused(Key::ArrowDown), Command::TurnBy([0.0, ARROW]), "turn"),
-    row(Input::Held(Key::W), Command::Fly([0.0, 0.0, 1.0]), "fly ahead; with Shift faster"),
+    row(Input::Held(Key::W), Command::Fly([0.0, 0.0, 1.0]), "fly ahead, and look around; with Shift faster"),
     row(Input::Held(Key::S), Command::Fly([0.0, 0.0, -1.0]), "fly back"),
     row(Input::Held(Key::A), Command::Fly([-1.0, 0.0, 0.0]), "fly left"),
     row(Input::Held(Key::D), Command::Fly([1.0, 0.0, 0.0]), "fly right"),
@@ -103,7 +103,7 @@ impl Input {
         match self {
             Self::Press(_, Key::Questionmark) => "?".to_owned(),
             Self::Press(modifiers, key) => with(modifiers, key.name()),
-            Self::Unfocused(key) => format!("{} arrow", key.name()),
+            Self::Unfocused(key) => key.symbol_or_name().to_owned(),
             Self::Held(key) => format!("right button+{}", key.name()),
             Self::Drag(modifiers, PointerButton::Primary) => with(modifiers, "drag"),
             Self::Drag(modifiers, PointerButton::Middle) => with(modifiers, "middle drag"),
@@ -168,14 +168,15 @@ pub fn show(context: &Context) -> bool {
         .id(Id::unique("keys"))
         .open(&mut is_open)
         .anchor(Align2::CENTER_CENTER, [0.0; 2])
-        .resizable(false)
+        .auto_sized()
         .collapsible(false)
         .show(context, |ui| {
             egui::ScrollArea::vertical().max_height(room.y.max(60.0)).show(ui, |ui| {
                 egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-                    for row in ROWS {
-                        ui.strong(row.input.text(is_mac));
-                        ui.label(row.what);
+                    for rows in ROWS.chunk_by(|row, next| row.what == next.what) {
+                        let inputs: Vec<String> = rows.iter().map(|row| row.input.text(is_mac)).collect();
+                        ui.strong(inputs.join(", "));
+                        ui.label(rows[0].what);
                         ui.end_row();
                     }
                 });
@@ -197,7 +198,7 @@ mod tests {
             }
         }
         let texts: Vec<String> = ROWS.iter().map(|row| row.input.text(false)).collect();
-        for text in ["Ctrl+Shift+Z", "Shift+drag", "Ctrl+middle drag", "F11", "?", "Left arrow", "right button+W"] {
+        for text in ["Ctrl+Shift+Z", "Shift+drag", "Ctrl+middle drag", "F11", "?", "⏴", "right button+W"] {
             assert!(texts.iter().any(|listed| listed == text), "{text}: {texts:?}");
         }
     }
