@@ -63,15 +63,18 @@ impl History {
 
     /// Goes a step back; none where there is none.
     pub fn undo(&mut self) -> Option<&Step> {
-        self.now = self.now.checked_sub(1)?;
-        self.steps.get(self.now)
+        self.can_undo().then(|| {
+            self.now -= 1;
+            &self.steps[self.now]
+        })
     }
 
     /// Goes a step on again; none where there is none.
     pub fn redo(&mut self) -> Option<&Step> {
-        let step = self.steps.get(self.now + 1)?;
-        self.now += 1;
-        Some(step)
+        self.can_redo().then(|| {
+            self.now += 1;
+            &self.steps[self.now]
+        })
     }
 }
 

@@ -83,7 +83,7 @@ fn fold(area: Rect, state: &mut State) {
 fn fold_button(ui: &Ui, picture: Rect, state: &mut State) {
     let at = picture.right_top() + egui::vec2(-4.0, 4.0);
     Area::new(Id::unique("fold")).fixed_pos(at).pivot(Align2::RIGHT_TOP).show(ui, |ui| {
-        let (text, about) = if state.panel_hidden { ("◀", "Show the panel") } else { ("▶", "Hide the panel") };
+        let (text, about) = if state.panel_hidden { ("<", "Show the panel") } else { (">", "Hide the panel") };
         if ui.button(text).on_hover_text(about).clicked() {
             state.panel_hidden = !state.panel_hidden;
         }

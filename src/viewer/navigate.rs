@@ -9,7 +9,7 @@ use super::commands::{Command, edit_view};
 use super::keys;
 use super::pick::{Picked, Ray, pick};
 use super::state::State;
-use crate::scene::{Bounds, Orbit};
+use crate::scene::{Bounds, Camera, Drawn, Orbit};
 
 /// For how long the outline of what was clicked is shown, seconds.
 const OUTLINED: f64 = 0.8;
@@ -21,7 +21,7 @@ const FARTHEST: f32 = 1e4;
 /// near the target is, it does not stop there.
 const EMPTY: f32 = 1e-3;
 /// Diagonals of the scene that are flown in a second, and how much faster that is with Shift.
-const SPEED: f32 = 0.25;
+const SPEED: f32 = 0.15;
 const FASTER: f32 = 4.0;
 
 /// What the pointer and the keys are about in the picture.
@@ -44,12 +44,7 @@ pub struct Hands {
 impl State {
     /// The box of what was clicked last, as it is drawn; none where nothing was.
     pub fn clicked_bounds(&self) -> Option<Bounds> {
-        self.hands.clicked.map(|instance| self.instance_bounds(instance))
-    }
-
-    fn instance_bounds(&self, instance: usize) -> Bounds {
-        let placed = &self.drawn().instances[instance];
-        Bounds::of_points(&self.scene.meshes[placed.mesh].positions).transformed(placed.world_from_mesh)
+        self.hands.clicked.map(|instance| bounds(&self.drawn(), instance))
     }
 
     /// What is seen at a point of the picture.
@@ -61,6 +56,21 @@ impl State {
     fn range(&self) -> RangeInclusive<f32> {
         NEAREST * self.size()..=FARTHEST * self.size()
     }
+}
+
+/// The middle of what is seen in the middle of a camera's picture, or the point itself where the eye is within its box; none
+/// where nothing is seen there.
+pub fn subject(drawn: &Drawn, camera: &Camera) -> Option<Vec3> {
+    let picked = pick(drawn, &Ray::new(camera, 1.0, Vec2::splat(0.5)))?;
+    let (bounds, eye) = (bounds(drawn, picked.instance), camera.world_from_camera.w_axis.truncate());
+    let is_within = bounds.with(eye) == bounds;
+    Some(if is_within { picked.point } else { bounds.center() })
+}
+
+/// The box of an instance in the world, metres.
+fn bounds(drawn: &Drawn, instance: usize) -> Bounds {
+    let placed = &drawn.instances[instance];
+    Bounds::of_points(&drawn.scene.meshes[placed.mesh].positions).transformed(placed.world_from_mesh)
 }
 
 /// A point of the picture in shares of its width and height.
@@ -179,7 +189,7 @@ fn click(ui: &Ui, response: &Response, picture: Rect, state: &mut State) {
         return;
     };
     if response.double_clicked() {
-        let bounds = state.instance_bounds(picked.instance);
+        let bounds = bounds(&state.drawn(), picked.instance);
         edit_view(state, |orbit| orbit.centre(picked.point, &bounds, picture.aspect_ratio()));
     }
     state.hands.clicked = Some(picked.instance);

@@ -75,13 +75,20 @@ impl Ray {
 
     /// Whether it passes through a box.
     fn meets(&self, bounds: &Bounds) -> bool {
-        let inverse = self.direction.recip();
-        let [first, second] = [bounds.min, bounds.max].map(|side| (side.as_dvec3() - self.origin) * inverse);
-        // A box that is flat, or a ray along its side, gives NaN, which neither `min` nor `max` keeps.
-        let enters = first.min(second).max_element().max(self.depths.start);
-        let leaves = first.max(second).min_element().min(self.depths.end);
-        // Room for rounding.
-        !(enters > leaves * (1.0 + 1e-9) + f64::MIN_POSITIVE)
+        let Range { start: mut enters, end: mut leaves } = self.depths;
+        for axis in 0..3 {
+            let sides = [bounds.min, bounds.max].map(|side| f64::from(side[axis]) - self.origin[axis]);
+            match self.direction[axis] {
+                0.0 if sides[0] > 0.0 || sides[1] < 0.0 => return false,
+                0.0 => {}
+                slope => {
+                    let depths = sides.map(|side| side / slope);
+                    enters = enters.max(depths[0].min(depths[1]));
+                    leaves = leaves.min(depths[0].max(depths[1]));
+                }
+            }
+        }
+        enters <= leaves
     }
 
     /// The depth at which it meets a triangle, and the weights of the corners there (Moeller and Trumbore 1997); `culled`

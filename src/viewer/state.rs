@@ -5,7 +5,7 @@ use std::time::Duration;
 use glam::Vec3;
 
 use super::history::{History, Step};
-use super::navigate::Hands;
+use super::navigate::{self, Hands};
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -38,7 +38,7 @@ pub struct State {
     /// What the pointer and the keys are about in the picture.
     pub hands: Hands,
     pub history: History,
-    /// The middle of what is lit, metres: a camera of the scene turns about it.
+    /// The middle of what is seen at first, else of what is lit, metres: a camera of the scene turns about it.
     center: Vec3,
     /// The scene's diagonal, metres.
     size: f32,
@@ -53,7 +53,9 @@ impl State {
     /// The state right after loading. Panics where the scene has no camera or no material.
     pub fn new(name: &str, scene: Scene, edits: Edits) -> Self {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
-        let shown = Drawn::new(&scene, &edits).materials.iter().position(|material| material.sheen.is_some());
+        let drawn = Drawn::new(&scene, &edits);
+        let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
+        let center = navigate::subject(&drawn, &edits.camera(&scene)).unwrap_or_else(|| scene.subject().center());
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
@@ -68,7 +70,7 @@ impl State {
             outlined: None,
             hands: Hands::default(),
             history: History::new(&edits),
-            center: scene.subject().center(),
+            center,
             size: (scene.bounds().diagonal() as f32).max(f32::MIN_POSITIVE),
             step: step(scene.bounds().diagonal()),
             scene,

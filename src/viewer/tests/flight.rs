@@ -43,7 +43,7 @@ fn keys_fly_as_fast_whatever_the_frame_rate() {
             to - from
         });
         for flown in flown {
-            assert!(flown.abs_diff_eq(0.5 * 0.25 * size * direction, 1e-4), "{key:?}: {flown}");
+            assert!(flown.abs_diff_eq(0.5 * 0.15 * size * direction, 1e-4), "{key:?}: {flown}");
         }
     }
     let mut window = Window::new(scene(1.0));

@@ -215,6 +215,23 @@ fn f_frames_what_was_clicked_or_all() {
 }
 
 #[test]
+fn the_view_turns_about_what_is_in_its_middle() {
+    // A cloth in front of a wall that is far larger.
+    let mut scene = pair();
+    scene.cameras[0].world_from_camera.w_axis += Vec3::splat(0.2).extend(0.0);
+    scene.instances[2].world_from_mesh =
+        Mat4::from_translation(Vec3::new(-50.0, -50.0, -20.0)) * Mat4::from_scale(Vec3::splat(200.0));
+    let target = |scene: &Scene| Window::new(scene.clone()).state.orbit().target;
+    assert!(target(&scene).abs_diff_eq(Vec3::new(0.2, 0.2, 0.0), 1e-5));
+    // From within the box of what is seen, about the place where it is seen.
+    scene.instances.truncate(2);
+    scene.meshes[0].positions.push(Vec3::new(5.0, 5.0, 5.0));
+    scene.meshes[0].positions.push(Vec3::new(-5.0, -5.0, -5.0));
+    assert!(target(&scene).abs_diff_eq(Vec3::new(0.2, 0.2, 0.0), 1e-5));
+}
+
+/// The window shows the scene through its camera, as `velour render` does, until it is turned.
+#[test]
 fn a_camera_that_leans_is_shown_as_it_is() {
     let mut scene = scene(1.0);
     scene.cameras[0].world_from_camera *= Mat4::from_rotation_z(0.4);

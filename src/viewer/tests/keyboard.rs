@@ -172,11 +172,11 @@ fn the_panel_makes_way_in_narrow_windows_and_comes_back() {
     window.size = vec2(480.0, 320.0);
     window.rest(3);
     assert_eq!(window.layout.picture, Rect::from_min_size(Pos2::ZERO, window.size));
-    let button = window.place(Role::Button, "◀").center();
+    let button = window.place(Role::Button, "<").center();
     window.click(button);
     window.pass(vec![]);
     assert_eq!(window.layout.picture.width(), 210.0);
-    let button = window.place(Role::Button, "▶").center();
+    let button = window.place(Role::Button, ">").center();
     assert!(window.layout.picture.contains(button));
     window.click(button);
     window.press(Key::H);
