@@ -20,8 +20,8 @@ const FARTHEST: f32 = 1e4;
 /// Where nothing is seen under the pointer, the wheel goes to what is at least so far, in diagonals of the scene: however
 /// near the target is, it does not stop there.
 const EMPTY: f32 = 1e-3;
-/// Diagonals of the scene that are flown in a second, and how much faster that is with Shift.
-const SPEED: f32 = 0.15;
+/// What is flown in a second, in distances from which the scene is seen at first, and how much faster that is with Shift.
+const SPEED: f32 = 0.5;
 const FASTER: f32 = 4.0;
 
 /// What the pointer and the keys are about in the picture.
@@ -112,7 +112,7 @@ fn fly(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> bool {
     let seconds = now - state.hands.flying.replace(now).unwrap_or(now);
     let (moved, shift) = ui.input(|input| (input.pointer.delta(), input.modifiers.shift));
     let moved = Vec2::new(moved.x, moved.y) / picture.height().max(1.0);
-    let speed = SPEED * state.size() * if shift { FASTER } else { 1.0 };
+    let speed = SPEED * state.distance() * if shift { FASTER } else { 1.0 };
     let flown = step.map(|step| step.map(|step| step * speed * seconds as f32));
     if moved != Vec2::ZERO || flown.is_some_and(|flown| flown != [0.0; 3]) {
         edit_view(state, |orbit| {

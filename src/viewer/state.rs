@@ -42,6 +42,8 @@ pub struct State {
     center: Vec3,
     /// The scene's diagonal, metres.
     size: f32,
+    /// From where the eye is at first to the middle, metres.
+    distance: f32,
     /// The step of coordinates, metres: a power of ten, so small that some hundred of them cross the scene.
     step: f32,
 }
@@ -55,7 +57,8 @@ impl State {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
         let drawn = Drawn::new(&scene, &edits);
         let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
-        let center = navigate::subject(&drawn, &edits.camera(&scene)).unwrap_or_else(|| scene.subject().center());
+        let camera = edits.camera(&scene);
+        let center = navigate::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
@@ -71,6 +74,7 @@ impl State {
             hands: Hands::default(),
             history: History::new(&edits),
             center,
+            distance: Orbit::new(&camera, center).distance,
             size: (scene.bounds().diagonal() as f32).max(f32::MIN_POSITIVE),
             step: step(scene.bounds().diagonal()),
             scene,
@@ -111,6 +115,11 @@ impl State {
     /// The scene's diagonal, metres.
     pub fn size(&self) -> f32 {
         self.size
+    }
+
+    /// How far away the scene is seen from at first, metres.
+    pub fn distance(&self) -> f32 {
+        self.distance
     }
 
     /// Takes back the last change; the view stays.

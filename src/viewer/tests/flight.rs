@@ -27,7 +27,7 @@ fn fly(window: &mut Window, key: Key) -> [Vec3; 2] {
 
 #[test]
 fn keys_fly_as_fast_whatever_the_frame_rate() {
-    let size = scene(1.0).bounds().diagonal() as f32;
+    // The camera stands a metre above the triangle.
     for (key, direction) in [
         (Key::W, Vec3::NEG_Z),
         (Key::S, Vec3::Z),
@@ -43,7 +43,7 @@ fn keys_fly_as_fast_whatever_the_frame_rate() {
             to - from
         });
         for flown in flown {
-            assert!(flown.abs_diff_eq(0.5 * 0.15 * size * direction, 1e-4), "{key:?}: {flown}");
+            assert!(flown.abs_diff_eq(0.5 * 0.5 * direction, 1e-4), "{key:?}: {flown}");
         }
     }
     let mut window = Window::new(scene(1.0));
@@ -66,7 +66,7 @@ fn a_pause_is_not_flown_afterwards() {
     window.pass(vec![button(true)]);
     window.pass(vec![window.key(Key::W, true)]);
     window.pass(vec![]);
-    assert!(window.eye().distance(before) < 0.02, "{}", window.eye().distance(before));
+    assert!(window.eye().distance(before) < 0.03, "{}", window.eye().distance(before));
 }
 
 #[test]
