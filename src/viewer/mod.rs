@@ -6,6 +6,7 @@ mod change;
 mod commands;
 mod frame;
 mod frame_time;
+mod hands;
 mod history;
 mod keys;
 mod layout;

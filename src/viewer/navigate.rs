@@ -7,9 +7,9 @@ use glam::{Vec2, Vec3};
 
 use super::commands::{Command, edit_view};
 use super::keys;
-use super::pick::{Picked, Ray, pick};
+use super::pick::{Picked, Ray, bounds, pick};
 use super::state::State;
-use crate::scene::{Bounds, Camera, Drawn, Orbit};
+use crate::scene::Bounds;
 
 /// For how long the outline of what was clicked is shown, seconds.
 const OUTLINED: f64 = 0.8;
@@ -23,23 +23,6 @@ const EMPTY: f32 = 1e-3;
 /// What is flown in a second, in distances from which the scene is seen at first, and how much faster that is with Shift.
 const SPEED: f32 = 0.5;
 const FASTER: f32 = 4.0;
-
-/// What the pointer and the keys are about in the picture.
-#[derive(Clone, Debug, Default)]
-pub struct Hands {
-    /// The instance that was clicked last.
-    clicked: Option<usize>,
-    /// When the outline of what was clicked ends, in egui's time.
-    outlined_until: f64,
-    /// Where the pointer was when something was zoomed to, what that is, and the view that has come of it.
-    zoomed: Option<(Pos2, Vec3, Orbit)>,
-    /// How far away what a pan drags along is, metres.
-    held: Option<f32>,
-    /// Since when the last part of a flight has not been flown, in egui's time; none where there is no flight.
-    flying: Option<f64>,
-    /// Whether the window was too narrow for panel and picture.
-    pub is_narrow: bool,
-}
 
 impl State {
     /// The box of what was clicked last, as it is drawn; none where nothing was.
@@ -56,21 +39,6 @@ impl State {
     fn range(&self) -> RangeInclusive<f32> {
         NEAREST * self.size()..=FARTHEST * self.size()
     }
-}
-
-/// The middle of what is seen in the middle of a camera's picture, or the point itself where the eye is within its box; none
-/// where nothing is seen there.
-pub fn subject(drawn: &Drawn, camera: &Camera) -> Option<Vec3> {
-    let picked = pick(drawn, &Ray::new(camera, 1.0, Vec2::splat(0.5)))?;
-    let (bounds, eye) = (bounds(drawn, picked.instance), camera.world_from_camera.w_axis.truncate());
-    let is_within = bounds.with(eye) == bounds;
-    Some(if is_within { picked.point } else { bounds.center() })
-}
-
-/// The box of an instance in the world, metres.
-fn bounds(drawn: &Drawn, instance: usize) -> Bounds {
-    let placed = &drawn.instances[instance];
-    Bounds::of_points(&drawn.scene.meshes[placed.mesh].positions).transformed(placed.world_from_mesh)
 }
 
 /// A point of the picture in shares of its width and height.

@@ -142,6 +142,21 @@ pub fn pick(drawn: &Drawn, ray: &Ray) -> Option<Picked> {
     })
 }
 
+/// The middle of what is seen in the middle of a camera's picture, or the point itself where the eye is within its box; none
+/// where nothing is seen there.
+pub fn subject(drawn: &Drawn, camera: &Camera) -> Option<Vec3> {
+    let picked = pick(drawn, &Ray::new(camera, 1.0, Vec2::splat(0.5)))?;
+    let (bounds, eye) = (bounds(drawn, picked.instance), camera.world_from_camera.w_axis.truncate());
+    let is_within = bounds.with(eye) == bounds;
+    Some(if is_within { picked.point } else { bounds.center() })
+}
+
+/// The box of an instance in the world, metres.
+pub fn bounds(drawn: &Drawn, instance: usize) -> Bounds {
+    let placed = &drawn.instances[instance];
+    Bounds::of_points(&drawn.scene.meshes[placed.mesh].positions).transformed(placed.world_from_mesh)
+}
+
 /// A mesh and what it is made of.
 struct Surface<'a> {
     drawn: &'a Drawn<'a>,

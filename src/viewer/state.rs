@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use glam::Vec3;
 
+use super::hands::Hands;
 use super::history::{History, Step};
-use super::navigate::{self, Hands};
+use super::pick;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -58,7 +59,7 @@ impl State {
         let drawn = Drawn::new(&scene, &edits);
         let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
         let camera = edits.camera(&scene);
-        let center = navigate::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
+        let center = pick::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
