@@ -23,6 +23,9 @@ const EMPTY: f32 = 1e-3;
 /// What is flown in a second, in distances from which the scene is seen at first, and how much faster that is with Shift.
 const SPEED: f32 = 0.5;
 const FASTER: f32 = 4.0;
+/// The longest time between two passes that is flown in full, seconds: where pictures take longer, nobody sees where a flight
+/// leads in time to end it.
+const LONGEST: f64 = 0.25;
 
 impl State {
     /// The box of what was clicked last, as it is drawn; none where nothing was.
@@ -80,6 +83,7 @@ fn fly(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> bool {
     let seconds = now - state.hands.flying.replace(now).unwrap_or(now);
     let (moved, shift) = ui.input(|input| (input.pointer.delta(), input.modifiers.shift));
     let moved = Vec2::new(moved.x, moved.y) / picture.height().max(1.0);
+    let seconds = seconds.min(LONGEST);
     let speed = SPEED * state.distance() * if shift { FASTER } else { 1.0 };
     let flown = step.map(|step| step.map(|step| step * speed * seconds as f32));
     if moved != Vec2::ZERO || flown.is_some_and(|flown| flown != [0.0; 3]) {

@@ -70,6 +70,19 @@ fn a_pause_is_not_flown_afterwards() {
 }
 
 #[test]
+fn slow_pictures_make_no_leaps() {
+    let mut window = Window::new(scene(1.0));
+    window.pass(vec![Event::PointerMoved(AT)]);
+    window.pass(vec![button(true)]);
+    window.pass(vec![window.key(Key::W, true)]);
+    let before = window.eye();
+    window.pace = 3.0;
+    window.pass(vec![]);
+    let flown = window.eye().distance(before);
+    assert!((flown - 0.5 * 0.25).abs() < 1e-4, "{flown}");
+}
+
+#[test]
 fn the_pointer_looks_around_while_flying_and_pans_otherwise() {
     let mut window = Window::new(scene(1.0));
     window.pass(vec![Event::PointerMoved(AT)]);
