@@ -12,6 +12,7 @@ use wgpu::naga::{AddressSpace, Block, Expression, Function, Handle, Module, Span
 use super::accumulation::ACCUMULATION_WGSL;
 use super::denoise::DENOISE_WGSL;
 use super::display::DISPLAY_WGSL;
+use super::outline::OUTLINE_WGSL;
 use super::shader::{SHADOWED_WGSL, SURFACES_WGSL};
 
 /// What something depends on: this, and maybe what stands before it here.
@@ -301,7 +302,7 @@ fn is_bound_of_a_loop(accept: &Block, reject: &Block) -> bool {
 
 #[test]
 fn no_pass_picks_a_variant_by_a_uniform() {
-    let passes = [SURFACES_WGSL, SHADOWED_WGSL, ACCUMULATION_WGSL, DENOISE_WGSL, DISPLAY_WGSL];
+    let passes = [SURFACES_WGSL, SHADOWED_WGSL, ACCUMULATION_WGSL, DENOISE_WGSL, DISPLAY_WGSL, OUTLINE_WGSL];
     for pass in passes {
         assert_eq!(variants_by_uniform(pass), [""; 0]);
     }

@@ -13,11 +13,11 @@ use crate::scene::{Bounds, Drawn, Instance, Mesh, Scene};
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuInstance {
-    world_from_mesh: Mat4,
+    pub world_from_mesh: Mat4,
     /// Columns of the matrix that takes normals to the world: the inverse transpose, up to a positive factor.
     normal_from_mesh: [Vec4; 3],
     emission: Vec3,
-    material: u32,
+    pub material: u32,
     handedness: f32,
     padding: [u32; 3],
 }

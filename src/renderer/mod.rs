@@ -22,6 +22,7 @@ mod materials;
 mod meter;
 mod numbers;
 mod offscreen;
+mod outline;
 pub mod paint_order;
 mod patterns;
 mod pieces;
@@ -56,6 +57,7 @@ use std::ops::Range;
 
 use blended::Blended;
 use display::{DisplayPass, Source};
+use outline::OutlinePass;
 use pipelines::Stage;
 use reprojection::Reprojection;
 use resident::Resident;
@@ -132,6 +134,8 @@ pub struct Renderer {
     shadowed: Shadowed,
     /// There where it has been needed.
     reprojection: Option<Reprojection>,
+    /// There from the first outline on.
+    outline: Option<OutlinePass>,
     latest: Latest,
 }
 
@@ -169,6 +173,7 @@ impl Renderer {
             shadows: Shadows::default(),
             shadowed: Shadowed::new(gpu, format, formats),
             reprojection: None,
+            outline: None,
             latest: Latest::Unshadowed,
         })
     }
@@ -338,5 +343,19 @@ impl Renderer {
             _ => display::Drawn::Targets(targets),
         };
         self.display.encode((&gpu.device, &gpu.queue), encoder, &drawn, output, showing);
+    }
+
+    /// Draws the outline of what `view` shows of a material over a picture that is shown in a rectangle of the output.
+    pub fn outline(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        output: (&wgpu::TextureView, Rect),
+        view: &View,
+        material: usize,
+    ) {
+        let outline = self.outline.get_or_insert_with(|| OutlinePass::new(&gpu.device, self.format.output));
+        let pieces = (material, self.surfaces.triangles_a_pass);
+        outline.encode(gpu, encoder, output, (&self.resident, view), pieces);
     }
 }

@@ -54,7 +54,8 @@ pub struct SurfacesPass {
     /// The tables of the sheen, of the specular base, and of the albedos of the other sheens.
     tables: [TextureView; 3],
     bind_group: BindGroup,
-    triangles_a_pass: u32,
+    /// Most that a pass draws.
+    pub(super) triangles_a_pass: u32,
 }
 
 impl SurfacesPass {

@@ -1,4 +1,4 @@
-//! A view of the whole scene, for files without a camera.
+//! How far away a view has to be to show something whole; and one of the whole scene, for files without a camera.
 
 use glam::{Mat3, Mat4, Vec3};
 
@@ -22,13 +22,7 @@ pub(super) fn add_camera(scene: &mut Scene, notices: &mut Notices) {
     let back = TOWARDS_CAMERA.normalize();
     let right = Vec3::Y.cross(back).normalize();
     let axes = Mat3::from_cols(right, back.cross(right), back);
-    // The distance from which a corner is seen at the edge of the field of view, to the side or above, whichever is
-    // farther out.
-    let needed = subject.corners().map(|corner| {
-        let corner = axes.transpose() * (corner - center);
-        corner.z + corner.x.abs().max(corner.y.abs()) / (0.5 * YFOV).tan()
-    });
-    let distance = MARGIN * needed.into_iter().fold(radius, f32::max);
+    let distance = distance(&subject, &axes, YFOV, 1.0);
     let eye = center + distance * back;
     let world_from_camera = Mat4::from_translation(eye) * Mat4::from_mat3(axes);
     // Lights may stand in front of the subject and behind it.
@@ -36,6 +30,26 @@ pub(super) fn add_camera(scene: &mut Scene, notices: &mut Notices) {
     let projection = Projection::Perspective { yfov: YFOV, near: 0.01 * distance, far: 1.1 * farthest + radius };
     scene.cameras.push(Camera { name: "framing".to_owned(), world_from_camera, projection });
     notices.add("no camera in the file", || "the whole scene is framed".to_owned());
+}
+
+/// The distance from its middle at which a box is seen whole along the axes' -z, in a picture of this vertical field of
+/// view (radians) and aspect (width / height).
+pub(super) fn distance(bounds: &Bounds, axes: &Mat3, yfov: f32, aspect: f32) -> f32 {
+    // From there the outmost corner is seen at the edge of the field of view, to the side or above.
+    let [across, up] = [aspect, 1.0].map(|side| side * (0.5 * yfov).tan());
+    let needed = corners(bounds, axes).map(|corner| corner.z + (corner.x.abs() / across).max(corner.y.abs() / up));
+    MARGIN * needed.into_iter().fold(radius(bounds), f32::max)
+}
+
+/// Half the height of a picture of this aspect that shows a box along the axes' -z without perspective, metres.
+pub(super) fn half_height(bounds: &Bounds, axes: &Mat3, aspect: f32) -> f32 {
+    let needed = corners(bounds, axes).map(|corner| (corner.x.abs() / aspect).max(corner.y.abs()));
+    MARGIN * needed.into_iter().fold(1e-3 * radius(bounds), f32::max)
+}
+
+/// The corners of a box from its middle, in these axes.
+fn corners(bounds: &Bounds, axes: &Mat3) -> [Vec3; 8] {
+    bounds.corners().map(|corner| axes.transpose() * (corner - bounds.center()))
 }
 
 /// Half the diagonal in metres, but never so small, for where the box is, that it would be lost in rounding.

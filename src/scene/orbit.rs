@@ -1,10 +1,11 @@
-//! A camera that circles a target: it is turned, panned and zoomed.
+//! A camera that circles a target: it is turned, panned and zoomed, flown, and pointed at things.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
+use std::ops::RangeInclusive;
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
-use super::{Camera, FARTHEST, Projection};
+use super::{Bounds, Camera, FARTHEST, Projection, framing};
 
 /// A view that circles a target; y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +46,7 @@ impl Orbit {
 
     /// The camera in its present place.
     pub fn camera(&self) -> Camera {
-        let axes = self.axes();
-        let eye = self.target + self.distance * axes.z_axis;
+        let (axes, eye) = (self.axes(), self.eye());
         let projection = match self.projection {
             // The near plane must not reach the target; depth is precise even without a far plane.
             Projection::Perspective { yfov, near, .. } => {
@@ -65,22 +65,107 @@ impl Orbit {
         self.elevation = (self.elevation + drag.y * 0.5 * TAU).clamp(-Self::STEEPEST, Self::STEEPEST);
     }
 
-    /// Moves such that the target follows a drag of this many view heights, to the right and down.
-    pub fn pan(&mut self, drag: Vec2) {
-        let axes = self.axes();
-        let target = self.target + self.view_height() * (drag.y * axes.y_axis - drag.x * axes.x_axis);
-        self.target = target.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST));
+    /// Looks around from where the eye is, by a drag of this many view heights. One view height is a quarter of a turn.
+    pub fn look(&mut self, drag: Vec2) {
+        let eye = self.eye();
+        self.turn(0.5 * drag);
+        self.put_eye(eye);
     }
 
-    /// Goes nearer by this factor where it is above 1, or farther where it is below. Panics unless it is above 0.
-    pub fn zoom(&mut self, factor: f32) {
+    /// Looks from this azimuth and elevation, in radians, at the same target.
+    pub fn look_from(&mut self, azimuth: f32, elevation: f32) {
+        self.azimuth = azimuth;
+        self.elevation = elevation.clamp(-Self::STEEPEST, Self::STEEPEST);
+    }
+
+    /// Moves such that what is `depth` metres in front of the eye follows a drag of this many view heights, to the right
+    /// and down.
+    pub fn pan(&mut self, drag: Vec2, depth: f32) {
+        let axes = self.axes();
+        let offset = self.view_height(depth) * (drag.y * axes.y_axis - drag.x * axes.x_axis);
+        self.target = within_reach(self.target + offset);
+    }
+
+    /// Flies by so many metres to the right, up along y, and ahead.
+    pub fn fly(&mut self, [right, up, ahead]: [f32; 3]) {
+        let axes = self.axes();
+        self.target = within_reach(self.target + right * axes.x_axis + up * Vec3::Y - ahead * axes.z_axis);
+    }
+
+    /// Goes nearer to `anchor` by this factor where it is above 1, or farther from it where it is below. Whatever lies in
+    /// the anchor's direction stays where it is in the picture, and the target comes along: both views are similar about
+    /// the anchor, so that zooming out by the same factor comes back.
+    ///
+    /// `range` is of what the view keeps between its eye and things, metres. Where the anchor is nearer than that, another
+    /// one in its direction stands in for it, and the view goes on past it. Panics unless the factor is above 0.
+    pub fn zoom(&mut self, anchor: Vec3, factor: f32, range: &RangeInclusive<f32>) {
         assert!(factor > 0.0, "a zoom factor is positive, not {factor}");
-        let size = match &mut self.projection {
-            Projection::Orthographic { ymag, .. } => ymag,
-            Projection::Perspective { .. } => &mut self.distance,
-        };
-        // Limits within which floats still serve, for scenes of any size.
-        *size = (*size / factor).clamp(1e-9, FARTHEST);
+        let back = self.axes().z_axis.as_dvec3();
+        let (target, eye) = (self.target.as_dvec3(), self.target.as_dvec3() + f64::from(self.distance) * back);
+        let within = |size: f32| size.clamp(*range.start(), *range.end());
+        match &mut self.projection {
+            Projection::Orthographic { ymag, .. } => {
+                let before = std::mem::replace(ymag, within(*ymag / factor));
+                let offset = anchor.as_dvec3() - target;
+                let across = offset - offset.dot(back) * back;
+                self.target = (target + (1.0 - f64::from(*ymag / before)) * across).as_vec3();
+            }
+            Projection::Perspective { .. } => {
+                let nearest = f64::from(*range.start());
+                let offset = anchor.as_dvec3() - eye;
+                // What is not in front of the eye leaves it going straight ahead.
+                let offset = if offset.dot(back) < 0.0 { offset } else { -nearest * back };
+                let depth = -offset.dot(back);
+                let farthest = (depth / f64::from(*range.end())).min(1.0);
+                let factor = if factor < 1.0 { f64::from(factor).max(farthest) } else { factor.into() };
+                let stretch = depth.max(nearest) / depth;
+                let eye = eye + (1.0 - factor.recip()) * stretch * offset;
+                self.distance = within((f64::from(self.distance) / factor) as f32);
+                self.target = (eye - f64::from(self.distance) * back).as_vec3();
+            }
+        }
+        self.target = within_reach(self.target);
+    }
+
+    /// Centres on a box that is not empty, and goes where it fills a picture of this aspect (width / height).
+    pub fn frame(&mut self, bounds: &Bounds, aspect: f32) {
+        self.target = within_reach(bounds.center());
+        let axes = self.axes();
+        match &mut self.projection {
+            Projection::Orthographic { ymag, near, .. } => {
+                *ymag = framing::half_height(bounds, &axes, aspect);
+                // Nothing of it is before the near plane.
+                self.distance = self.distance.max(*near + framing::radius(bounds));
+            }
+            Projection::Perspective { yfov, .. } => self.distance = framing::distance(bounds, &axes, *yfov, aspect),
+        }
+    }
+
+    /// Centres on a point of something within this box: near enough that all of that would fill the picture, and never
+    /// farther than the point is.
+    pub fn centre(&mut self, point: Vec3, bounds: &Bounds, aspect: f32) {
+        let (depth, before) = (self.depth(point), self.projection);
+        self.frame(bounds, aspect);
+        self.target = within_reach(point);
+        match (&mut self.projection, before) {
+            (Projection::Orthographic { ymag, .. }, Projection::Orthographic { ymag: before, .. }) => {
+                *ymag = ymag.min(before);
+            }
+            _ => self.distance = self.distance.min(depth),
+        }
+    }
+
+    /// How far in front of the eye a point is, along the view, metres.
+    pub fn depth(&self, point: Vec3) -> f32 {
+        (self.eye() - point).dot(self.axes().z_axis)
+    }
+
+    fn eye(&self) -> Vec3 {
+        self.target + self.distance * self.axes().z_axis
+    }
+
+    fn put_eye(&mut self, eye: Vec3) {
+        self.target = within_reach(eye - self.distance * self.axes().z_axis);
     }
 
     /// Sets the distances between which the view shows something, metres.
@@ -90,10 +175,10 @@ impl Orbit {
         (*near, *far) = (nearest, farthest);
     }
 
-    /// Metres that the view shows vertically at the target.
-    fn view_height(&self) -> f32 {
+    /// Metres that the view shows vertically this far in front of the eye.
+    fn view_height(&self, depth: f32) -> f32 {
         match self.projection {
-            Projection::Perspective { yfov, .. } => 2.0 * self.distance * (0.5 * yfov).tan(),
+            Projection::Perspective { yfov, .. } => 2.0 * depth * (0.5 * yfov).tan(),
             Projection::Orthographic { ymag, .. } => 2.0 * ymag,
         }
     }
@@ -102,6 +187,10 @@ impl Orbit {
     fn axes(&self) -> Mat3 {
         Mat3::from_rotation_y(self.azimuth) * Mat3::from_rotation_x(-self.elevation)
     }
+}
+
+fn within_reach(point: Vec3) -> Vec3 {
+    point.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST))
 }
 
 #[cfg(test)]
@@ -138,24 +227,145 @@ mod tests {
         assert!(orbit.camera().world_from_camera.is_finite());
     }
 
-    #[test]
-    fn what_is_dragged_stays_under_the_pointer() {
-        let mut orbit = Orbit::new(&camera(), Vec3::new(1.0, 0.5, -2.0));
-        let target = orbit.target;
-        orbit.pan(Vec2::new(0.25, -0.1));
-        let p_camera = orbit.camera().world_from_camera.inverse().transform_point3(target);
-        // Heights of the view at the target's distance, from its middle: right and up are positive.
-        let height = orbit.view_height();
-        assert!((p_camera.x / height - 0.25).abs() < 1e-5 && (p_camera.y / height - 0.1).abs() < 1e-5, "{p_camera}");
+    fn orbits() -> [Orbit; 2] {
+        let start = Orbit::new(&camera(), Vec3::new(1.0, 0.5, -2.0));
+        [start, Orbit { projection: Projection::Orthographic { ymag: 1.5, near: 0.1, far: 50.0 }, ..start }]
+    }
+
+    /// Where a point lies in the picture, in view heights from its middle: right and up are positive.
+    fn seen(orbit: &Orbit, point: Vec3) -> Vec2 {
+        let camera = orbit.camera();
+        let p_camera = camera.world_from_camera.as_dmat4().inverse().transform_point3(point.as_dvec3());
+        let height = match camera.projection {
+            Projection::Perspective { yfov, .. } => -2.0 * p_camera.z * (0.5 * f64::from(yfov)).tan(),
+            Projection::Orthographic { ymag, .. } => 2.0 * f64::from(ymag),
+        };
+        (p_camera.truncate() / height).as_vec2()
     }
 
     #[test]
-    fn zooming_in_and_out_comes_back() {
-        let start = Orbit::new(&camera(), Vec3::ZERO);
+    fn what_is_dragged_stays_under_the_pointer() {
+        for mut orbit in orbits() {
+            for point in [orbit.target, Vec3::new(0.7, 0.9, -1.2)] {
+                let before = seen(&orbit, point);
+                orbit.pan(Vec2::new(0.25, -0.1), orbit.depth(point));
+                let moved = seen(&orbit, point) - before;
+                assert!(moved.abs_diff_eq(Vec2::new(0.25, 0.1), 1e-5), "{moved}");
+            }
+        }
+    }
+
+    const RANGE: RangeInclusive<f32> = 1e-4..=1e4;
+    /// Points that a pointer may be on: in front of the target and behind it, beside it and far from it.
+    const ANCHORS: [Vec3; 4] =
+        [Vec3::new(1.1, 0.4, -1.0), Vec3::new(0.4, 0.2, -3.5), Vec3::new(1.6, 0.9, -2.0), Vec3::new(-4.0, -2.0, -9.0)];
+
+    /// A pixel of a picture of 1000 rows, in view heights, is 1e-3.
+    #[test]
+    fn what_is_zoomed_to_stays_under_the_pointer() {
+        for start in orbits() {
+            for anchor in ANCHORS {
+                let before = seen(&start, anchor);
+                for factor in [1.25_f32, 0.8] {
+                    let mut orbit = start;
+                    for notch in 0..16 {
+                        orbit.zoom(anchor, factor, &RANGE);
+                        let moved = seen(&orbit, anchor).distance(before);
+                        assert!(moved < 2e-4, "{moved} after {notch} of {factor} to {anchor}");
+                    }
+                    assert!(orbit.target.is_finite());
+                    (0..16).for_each(|_| orbit.zoom(anchor, factor.recip(), &RANGE));
+                    let (after, back) = (orbit.camera(), start.camera());
+                    let moved = after.world_from_camera.w_axis.distance(back.world_from_camera.w_axis);
+                    assert!(moved < 1e-4 && orbit.target.distance(start.target) < 1e-4, "{moved}");
+                    assert!((orbit.distance / start.distance - 1.0).abs() < 1e-4);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn zooming_in_is_never_stuck_and_zooming_out_ends() {
+        let [start, orthographic] = orbits();
+        for anchor in ANCHORS {
+            let mut orbit = start;
+            let eye = |orbit: &Orbit| orbit.camera().world_from_camera.w_axis.truncate();
+            let direction = (anchor - eye(&orbit)).normalize();
+            for notch in 0..200 {
+                let before = eye(&orbit);
+                // As the pointer does: once it has gone past the anchor, it is on something else in the same direction.
+                let ahead = if orbit.depth(anchor) > 1e-4 { anchor } else { before + 1e-4 * direction };
+                orbit.zoom(ahead, 1.25, &RANGE);
+                assert!((eye(&orbit) - before).dot(direction) > 1e-6, "{notch} to {anchor}");
+            }
+            assert!(eye(&orbit).distance(anchor) < 0.01 && orbit.distance >= 1e-4);
+            for _ in 0..400 {
+                let is_ahead = orbit.depth(anchor) > 1e-4;
+                let ahead = if is_ahead { anchor } else { eye(&orbit) + orbit.distance * direction };
+                orbit.zoom(ahead, 0.8, &RANGE);
+            }
+            assert!(orbit.depth(anchor) < 2e4 && orbit.depth(anchor) > 5e3, "{}", orbit.depth(anchor));
+        }
+        let mut orbit = orthographic;
+        (0..200).for_each(|_| orbit.zoom(ANCHORS[0], 1.25, &RANGE));
+        assert!(matches!(orbit.projection, Projection::Orthographic { ymag: 1e-4, .. }));
+        assert!(seen(&orbit, ANCHORS[0]).is_finite());
+    }
+
+    #[test]
+    fn looking_around_leaves_the_eye_and_turns_towards_the_pointer() {
+        let start = orbits()[0];
         let mut orbit = start;
-        orbit.zoom(1.25);
-        assert!(orbit.distance < start.distance);
-        orbit.zoom(1.0 / 1.25);
-        assert!((orbit.distance - start.distance).abs() < 1e-5);
+        orbit.look(Vec2::new(0.1, 0.05));
+        assert!(orbit.eye().distance(start.eye()) < 1e-5);
+        // What was in the middle is now left of it and above.
+        let moved = seen(&orbit, start.target);
+        assert!(moved.x < -0.05 && moved.y > 0.05, "{moved}");
+    }
+
+    #[test]
+    fn flying_goes_where_the_view_looks() {
+        let start = orbits()[0];
+        let flown = |step| {
+            let mut orbit = start;
+            orbit.fly(step);
+            orbit.eye() - start.eye()
+        };
+        let ahead = (start.target - start.eye()).normalize();
+        assert!(flown([0.0, 0.0, 2.0]).abs_diff_eq(2.0 * ahead, 1e-5));
+        assert!(flown([0.0, 2.0, 0.0]).abs_diff_eq(2.0 * Vec3::Y, 1e-5));
+        assert!(flown([2.0, 0.0, 0.0]).abs_diff_eq(2.0 * ahead.cross(Vec3::Y).normalize(), 1e-5));
+    }
+
+    #[test]
+    fn what_is_framed_fills_the_picture_and_is_within_it() {
+        let bounds = Bounds { min: Vec3::new(3.0, -1.0, 2.0), max: Vec3::new(5.0, 0.5, 2.5) };
+        for start in orbits() {
+            for (azimuth, elevation, aspect) in [(0.0, 0.0, 1.6), (1.2, 0.4, 0.5), (0.3, 2.0, 1.0)] {
+                let mut orbit = start;
+                orbit.look_from(azimuth, elevation);
+                orbit.frame(&bounds, aspect);
+                let corners = bounds.corners().map(|corner| (seen(&orbit, corner) / Vec2::new(aspect, 1.0)).abs());
+                let outmost = corners.iter().fold(0.0_f32, |most, corner| most.max(corner.max_element()));
+                // Half a height is the picture's edge.
+                assert!(outmost < 0.5 && outmost > 0.4, "{outmost}: {orbit:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_centred_comes_to_the_middle_and_no_farther_away() {
+        for start in orbits() {
+            let point = Vec3::new(1.2, 0.3, -1.8);
+            for size in [0.1, 100.0] {
+                let mut orbit = start;
+                let bounds = Bounds { min: point - size, max: point + size };
+                let height = orbit.view_height(orbit.depth(point));
+                orbit.centre(point, &bounds, 1.5);
+                assert!(seen(&orbit, point).length() < 1e-5);
+                let after = orbit.view_height(orbit.depth(point));
+                assert!(if size < 1.0 { after < 0.5 * height } else { (after / height - 1.0).abs() < 1e-4 }, "{after}");
+            }
+        }
     }
 }

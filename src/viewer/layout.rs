@@ -1,13 +1,11 @@
-//! Where panel and picture are placed, and what dragging in the picture does.
+//! Where panel and picture are placed.
 
-use egui::{PointerButton, Rect, Sense, Ui};
-use glam::Vec2;
+use egui::{Align2, Area, Id, Rect, Ui};
 
 use super::change::Change;
-use super::panel;
 use super::request::Request;
 use super::state::State;
-use crate::scene::CameraEdit;
+use super::{history, keys, navigate, panel};
 
 /// The outcome of a pass over the user interface.
 pub struct Layout {
@@ -26,40 +24,68 @@ impl Default for Layout {
 
 /// Lays out the window's content and applies what the user does to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
-    let before = state.edits.clone();
+    let (before, outlined) = (state.edits.clone(), state.outlined);
+    // Before the panel, where a key may end what is typed.
+    let commands = keys::pressed(ui);
     let area = ui.available_rect_before_wrap();
-    let panel = egui::Panel::right("panel").exact_size(panel::WIDTH).resizable(false);
-    let request = panel.show(ui, |ui| panel::show(ui, state)).inner;
+    fold(area, state);
     // egui may make the panel a little narrower than it is meant to be, with its content: the picture stays where it is.
-    let picture = area.with_max_x((area.max.x - panel::WIDTH).max(area.min.x));
-    navigate(ui, picture, state);
+    let width = if state.panel_hidden { 0.0 } else { panel::WIDTH };
+    let picture = area.with_max_x((area.max.x - width).max(area.min.x));
+    navigate::take_focus(ui, picture);
+    let mut request = None;
+    if !state.panel_hidden {
+        let panel = egui::Panel::right("panel").exact_size(panel::WIDTH).resizable(false);
+        request = panel.show(ui, |ui| panel::show(ui, state)).inner;
+    }
+    navigate::show(ui, picture, state);
+    keep(ui, state);
+    for command in commands {
+        request = command.run(ui, picture, state).or(request);
+    }
+    if state.keys_shown {
+        state.keys_shown = keys::show(ui);
+    }
+    if is_narrow(area) {
+        fold_button(ui, picture, state);
+    }
     let mut change = Change::between(&before, &state.edits);
     if state.needs_metering() {
         change = change.max(Change::Drawn);
     }
+    if state.outlined != outlined {
+        change = change.max(Change::Shown);
+    }
     Layout { picture, change, request }
 }
 
-fn navigate(ui: &mut Ui, picture: Rect, state: &mut State) {
-    let response = ui.interact(picture, ui.scope_id().with("picture"), Sense::drag());
-    let delta = response.drag_delta();
-    let drag = Vec2::new(delta.x, delta.y) / picture.height().max(1.0);
-    let (shift, scroll, pinch) =
-        ui.input(|input| (input.modifiers.shift, input.smooth_scroll_delta(), input.zoom_delta()));
-    let before = state.orbit();
-    let mut orbit = before;
-    if drag != Vec2::ZERO {
-        if response.dragged_by(PointerButton::Primary) && !shift {
-            orbit.turn(drag);
-        } else {
-            orbit.pan(drag);
+/// Once a change has come to its end, it can be undone.
+fn keep(ui: &Ui, state: &mut State) {
+    if history::is_settled(ui) {
+        state.history.keep(&state.edits, state.metered);
+    }
+}
+
+/// Whether the panel leaves the picture less than half of the width.
+fn is_narrow(area: Rect) -> bool {
+    area.width() < 2.0 * panel::WIDTH
+}
+
+/// Hides the panel where the window has become too narrow for both, and brings it back where it has become wide enough.
+fn fold(area: Rect, state: &mut State) {
+    let is_narrow = is_narrow(area);
+    if std::mem::replace(&mut state.hands.is_narrow, is_narrow) != is_narrow {
+        state.panel_hidden = is_narrow;
+    }
+}
+
+/// A button at the picture's edge for the panel.
+fn fold_button(ui: &Ui, picture: Rect, state: &mut State) {
+    let at = picture.right_top() + egui::vec2(-4.0, 4.0);
+    Area::new(Id::unique("fold")).fixed_pos(at).pivot(Align2::RIGHT_TOP).show(ui, |ui| {
+        let (text, about) = if state.panel_hidden { ("<", "Show the panel") } else { (">", "Hide the panel") };
+        if ui.button(text).on_hover_text(about).clicked() {
+            state.panel_hidden = !state.panel_hidden;
         }
-    }
-    if response.hovered() {
-        // A notch of a wheel is about 50 points.
-        orbit.zoom((0.004 * scroll.y).clamp(-5.0, 5.0).exp() * pinch.clamp(0.1, 10.0));
-    }
-    if orbit != before {
-        state.edits.camera = Some(CameraEdit::Orbit(orbit));
-    }
+    });
 }

@@ -3,13 +3,18 @@
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
 mod change;
+mod commands;
 mod frame;
 mod frame_time;
+mod hands;
+mod history;
+mod keys;
 mod layout;
 mod lights;
 mod loading;
 mod material;
 mod native;
+mod navigate;
 mod notices;
 mod open;
 mod order;
@@ -17,6 +22,7 @@ mod pace;
 mod painter;
 mod panel;
 mod picture;
+mod pick;
 mod request;
 mod resting;
 mod screen;

@@ -121,6 +121,10 @@ impl Picture {
     ) {
         let exposure = metered.unwrap_or(shot.settings.exposure);
         self.renderer.show(gpu, encoder, output, Showing::Shown { exposure, tone: shot.settings.tone });
+        if let Some(material) = shot.outlined {
+            let view = View::new(&shot.camera, self.size, Rect::full(self.size));
+            self.renderer.outline(gpu, encoder, output, &view, material);
+        }
     }
 
     /// Draws another picture of the scene, of this size and with few samples, and shows it in all of the output.

@@ -7,6 +7,9 @@ use glam::Vec3;
 
 use super::change::Change;
 use super::order::Shot;
+use super::hands::Hands;
+use super::history::{History, Step};
+use super::pick;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -38,8 +41,15 @@ pub struct State {
     pub keys_shown: bool,
     /// The material whose outline is shown for a moment.
     pub outlined: Option<usize>,
-    /// The middle of what is lit, metres: a camera of the scene turns about it.
+    /// What the pointer and the keys are about in the picture.
+    pub hands: Hands,
+    pub history: History,
+    /// The middle of what is seen at first, else of what is lit, metres: a camera of the scene turns about it.
     center: Vec3,
+    /// The scene's diagonal, metres.
+    size: f32,
+    /// From where the eye is at first to the middle, metres.
+    distance: f32,
     /// The step of coordinates, metres: a power of ten, so small that some hundred of them cross the scene.
     step: f32,
 }
@@ -51,7 +61,10 @@ impl State {
     /// The state right after loading. Panics where the scene has no camera or no material.
     pub fn new(name: &str, scene: Scene, edits: Edits) -> Self {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
-        let shown = Drawn::new(&scene, &edits).materials.iter().position(|material| material.sheen.is_some());
+        let drawn = Drawn::new(&scene, &edits);
+        let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
+        let camera = edits.camera(&scene);
+        let center = pick::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
@@ -65,7 +78,11 @@ impl State {
             panel_hidden: false,
             keys_shown: false,
             outlined: None,
-            center: scene.subject().center(),
+            hands: Hands::default(),
+            history: History::new(&edits),
+            center,
+            distance: Orbit::new(&camera, center).distance,
+            size: (scene.bounds().diagonal() as f32).max(f32::MIN_POSITIVE),
             step: step(scene.bounds().diagonal()),
             scene: Arc::new(scene),
             edits,
@@ -113,6 +130,35 @@ impl State {
             Some(CameraEdit::Orbit(orbit)) => orbit,
             _ => Orbit::new(&self.camera(), self.center),
         }
+    }
+
+    /// The scene's diagonal, metres.
+    pub fn size(&self) -> f32 {
+        self.size
+    }
+
+    /// How far away the scene is seen from at first, metres.
+    pub fn distance(&self) -> f32 {
+        self.distance
+    }
+
+    /// Takes back the last change; the view stays.
+    pub fn undo(&mut self) {
+        if let Some(step) = self.history.undo().cloned() {
+            self.go_to(step);
+        }
+    }
+
+    /// Does again what was taken back last; the view stays.
+    pub fn redo(&mut self) {
+        if let Some(step) = self.history.redo().cloned() {
+            self.go_to(step);
+        }
+    }
+
+    fn go_to(&mut self, Step { edits, metered }: Step) {
+        self.edits = Edits { camera: self.edits.camera, ..edits };
+        self.metered = metered;
     }
 
     /// The step of coordinates in the scene, metres.

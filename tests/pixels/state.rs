@@ -46,7 +46,7 @@ fn what_the_viewer_saves_is_what_it_showed() {
     let scene = gltf::load(&bench.path("scene.glb"), &gltf::Options::default()).unwrap();
     let mut orbit = Orbit::new(&scene.cameras[0], scene.subject().center());
     orbit.turn([0.21, -0.04].into());
-    orbit.zoom(1.13);
+    orbit.zoom(orbit.target, 1.13, &(1e-4..=1e4));
     let light = LightEdits {
         radiance: Some([1.0, 0.7, 0.3].into()),
         strength: Some(7.77),

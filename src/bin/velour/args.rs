@@ -49,7 +49,7 @@ pub fn is_stray(word: &OsStr) -> bool {
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Opens a scene in a window: drag to orbit, right drag or shift drag to pan, wheel to zoom
+    /// Opens a scene in a window: drag to orbit, right drag or shift drag to pan, wheel to zoom; ? lists all keys
     #[cfg(feature = "window")]
     View(View),
     /// Renders a scene to a picture

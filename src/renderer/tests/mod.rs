@@ -1,3 +1,4 @@
 //! On a device.
 
+mod outline;
 mod traversal;

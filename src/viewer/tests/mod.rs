@@ -1,10 +1,13 @@
 //! The user interface without a window: what presses, drags and keys make of the edits.
 
+mod flight;
 mod hands;
+mod keyboard;
 mod panel;
+mod undoing;
 
 use egui::accesskit::{Node, Role};
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, ViewportId, pos2, vec2};
 use glam::{Mat4, Vec3};
 
 use super::change::Change;
@@ -22,6 +25,12 @@ struct Window {
     state: State,
     nodes: Vec<Node>,
     layout: Layout,
+    /// In points.
+    size: Vec2,
+    /// Those that are held.
+    modifiers: Modifiers,
+    /// Between two passes, seconds.
+    pace: f32,
     /// After how many seconds egui wants the next pass.
     delay: f64,
 }
@@ -31,7 +40,9 @@ impl Window {
         let context = egui::Context::default();
         context.enable_accesskit();
         let state = State::new("test.glb", scene, Edits::default());
-        let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
+        let (size, modifiers, pace) = (vec2(1280.0, 1400.0), Modifiers::NONE, 1.0 / 60.0);
+        let layout = Layout::default();
+        let mut window = Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0 };
         // egui finds the sizes of things by laying them out.
         for _ in 0..3 {
             window.pass(vec![]);
@@ -40,9 +51,12 @@ impl Window {
     }
 
     /// A pass after these events; what it changes.
-    fn pass(&mut self, events: Vec<Event>) -> Change {
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 1400.0)));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
+    fn pass(&mut self, mut events: Vec<Event>) -> Change {
+        if self.context.input(|input| input.modifiers) != self.modifiers {
+            events.insert(0, Event::ModifiersChanged(self.modifiers));
+        }
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, self.size));
+        let input = RawInput { screen_rect, events, predicted_dt: self.pace, ..RawInput::default() };
         let mut shown = Layout::default();
         let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
         self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
@@ -54,9 +68,17 @@ impl Window {
         self.layout.change
     }
 
+    /// So many passes in which nothing happens.
+    fn rest(&mut self, passes: usize) {
+        for _ in 0..passes {
+            self.pass(vec![]);
+        }
+    }
+
     /// The greatest change that a drag brings about.
     fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) -> Change {
-        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+        let modifiers = self.modifiers;
+        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers };
         let passes = [
             vec![Event::PointerMoved(from)],
             vec![press(from, true)],
@@ -106,15 +128,30 @@ impl Window {
             self.pass(vec![Event::Text(character.to_string())]);
             self.pass(vec![]);
         }
-        let key = |pressed| Event::Key {
-            key: Key::Enter,
-            physical_key: None,
-            pressed,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
-        self.pass(vec![key(true)]);
-        self.pass(vec![key(false)]);
+        self.press(Key::Enter);
+    }
+
+    fn key(&self, key: Key, pressed: bool) -> Event {
+        Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: self.modifiers }
+    }
+
+    /// Presses and releases a key; what that changes.
+    fn press(&mut self, key: Key) -> Change {
+        let change = self.pass(vec![self.key(key, true)]);
+        change.max(self.pass(vec![self.key(key, false)]))
+    }
+
+    /// The request of a key that is pressed and released.
+    fn request(&mut self, key: Key) -> Option<Request> {
+        self.pass(vec![self.key(key, true)]);
+        let request = self.layout.request;
+        self.pass(vec![self.key(key, false)]);
+        request
+    }
+
+    /// The camera's place.
+    fn eye(&self) -> Vec3 {
+        self.state.camera().world_from_camera.w_axis.truncate()
     }
 }
 
@@ -141,7 +178,7 @@ fn scene(size: f32) -> Scene {
         projection: Projection::Perspective { yfov: 0.7, near: 0.1 * size, far: f32::INFINITY },
     };
     Scene {
-        meshes: vec![Mesh { positions: corners, ..Mesh::default() }],
+        meshes: vec![Mesh { positions: corners, indices: vec![0, 1, 2], ..Mesh::default() }],
         instances: vec![instance("cloth"), instance("key")],
         materials: vec![Material { sheen: Some(Sheen::new(Vec3::ONE, 0.3)), ..Material::matte("velvet", Vec3::ZERO) }],
         lights: vec![light],

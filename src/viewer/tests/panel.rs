@@ -120,10 +120,7 @@ fn a_colour_that_is_looked_at_is_no_change() {
     }
 }
 
-/// The window shows the scene through its camera, as `velour render` does, until it is turned.
-
 /// A value of one material's is no reason for the others to change.
-
 #[test]
 fn a_material_that_is_edited_takes_nothing_from_the_others() {
     let mut scene = scene(1.0);

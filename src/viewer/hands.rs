@@ -1,0 +1,23 @@
+//! What is remembered of the hands from pass to pass.
+
+use egui::Pos2;
+use glam::Vec3;
+
+use crate::scene::Orbit;
+
+/// What the pointer and the keys are about in the picture.
+#[derive(Clone, Debug, Default)]
+pub struct Hands {
+    /// The instance that was clicked last.
+    pub clicked: Option<usize>,
+    /// When the outline of what was clicked ends, in egui's time.
+    pub outlined_until: f64,
+    /// Where the pointer was when something was zoomed to, what that is, and the view that has come of it.
+    pub zoomed: Option<(Pos2, Vec3, Orbit)>,
+    /// How far away what a pan drags along is, metres.
+    pub held: Option<f32>,
+    /// Since when the last part of a flight has not been flown, in egui's time; none where there is no flight.
+    pub flying: Option<f64>,
+    /// Whether the window was too narrow for panel and picture.
+    pub is_narrow: bool,
+}
