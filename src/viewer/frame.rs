@@ -287,8 +287,10 @@ impl Frame {
         if let Some(blank) = Blank::of(&seen) {
             let metered = self.renderer.meter(&self.gpu, &camera, size, &settings);
             let advice = blank.advice(settings.exposure, native::block_on_device(&self.gpu, metered)?);
-            state.message = advice.clone().unwrap_or_default();
-            state.notices.extend(advice);
+            if let Some(advice) = advice {
+                state.notices.push(advice.clone());
+                state.say(advice);
+            }
         }
         Ok(())
     }

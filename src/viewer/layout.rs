@@ -4,9 +4,9 @@ use egui::{PointerButton, Rect, Sense, Ui};
 use glam::Vec2;
 
 use super::change::Change;
-use super::panel;
 use super::request::Request;
 use super::state::State;
+use super::{panel, sheet_view};
 use crate::scene::CameraEdit;
 
 /// The outcome of a pass over the user interface.
@@ -27,12 +27,14 @@ impl Default for Layout {
 /// Lays out the window's content and applies what the user does to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let before = state.edits.clone();
+    panel::sweep(ui, state);
     let area = ui.available_rect_before_wrap();
     let panel = egui::Panel::right("panel").exact_size(panel::WIDTH).resizable(false);
     let request = panel.show(ui, |ui| panel::show(ui, state)).inner;
     // egui may make the panel a little narrower than it is meant to be, with its content: the picture stays where it is.
     let picture = area.with_max_x((area.max.x - panel::WIDTH).max(area.min.x));
     navigate(ui, picture, state);
+    sheet_view::show(ui, picture, state);
     let mut change = Change::between(&before, &state.edits);
     if state.needs_metering() {
         change = change.max(Change::Drawn);

@@ -6,19 +6,20 @@ mod change;
 mod frame;
 mod frame_time;
 mod layout;
-mod lights;
-mod material;
 mod native;
-mod notices;
 mod panel;
 mod request;
 mod resting;
 mod screen;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod server;
+mod sheet;
+mod sheet_view;
 mod state;
+mod sweep;
 #[cfg(test)]
 mod tests;
+mod theme;
 mod widgets;
 mod window;
 mod window_size;

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 
+use super::sheet::Sheet;
+use super::sweep::Sweep;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -25,8 +27,15 @@ pub struct State {
     pub metered: Option<f32>,
     /// What there is to say of the scene: by the loader, and of its first picture.
     pub notices: Vec<String>,
-    /// What became of the last command: a screenshot's name, or why there is none.
-    pub message: String,
+    /// What became of commands (a screenshot's name, or why there is none), the newest last; they stand until the user
+    /// has read them.
+    pub messages: Vec<String>,
+    /// What the program is busy with, for the line at the panel's bottom.
+    pub doing: Option<String>,
+    /// Alpha on its way to and fro: while there is one, all that it sets is one change.
+    pub sweep: Option<Sweep>,
+    /// The sheet of nine alphas, while it lies over the picture.
+    pub sheet: Option<Sheet>,
     /// Whether the picture has the window to itself.
     pub panel_hidden: bool,
     /// Whether the list of keys lies over the picture.
@@ -55,7 +64,10 @@ impl State {
             frame_time: None,
             metered: None,
             notices: scene.notices.clone(),
-            message: String::new(),
+            messages: Vec::new(),
+            doing: None,
+            sweep: None,
+            sheet: None,
             panel_hidden: false,
             keys_shown: false,
             outlined: None,
@@ -94,6 +106,26 @@ impl State {
             Some(CameraEdit::Orbit(orbit)) => orbit,
             _ => Orbit::new(&self.camera(), self.center),
         }
+    }
+
+    /// Tells the user; what is said already is moved to the end.
+    pub fn say(&mut self, what: String) {
+        self.messages.retain(|said| *said != what);
+        self.messages.push(what);
+    }
+
+    /// Moves alpha on where it is being swept, to where it is at a time in seconds; whether it still is. It stops where the
+    /// material is changed for another, and where alpha has been set by other means.
+    pub fn sweep_on(&mut self, now: f64) -> bool {
+        let Some(sweep) = &mut self.sweep else { return false };
+        let own = self.edits.materials.entry(sweep.material).or_default();
+        if own.alpha != sweep.last || sweep.material != self.material {
+            self.sweep = None;
+            return false;
+        }
+        sweep.last = Some(sweep.alpha(now));
+        own.alpha = sweep.last;
+        true
     }
 
     /// The step of coordinates in the scene, metres.

@@ -18,7 +18,7 @@ use super::native::{self, Instant};
 use super::request::Request;
 use super::screen::Screen;
 use super::state::State;
-use super::window_size;
+use super::{theme, window_size};
 use crate::renderer::device;
 use crate::table::SheenTable;
 
@@ -97,6 +97,7 @@ impl App {
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let frame = Frame::new(surface, gpu, window.inner_size().into(), &self.state, &self.table)?;
         let context = egui::Context::default();
+        theme::apply(&context);
         context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
         let egui = egui_winit::State::new(
             context,
@@ -131,11 +132,12 @@ impl App {
         let delay = if open.screen.is_stale() { delay } else { delay.max(REST) };
         (open.passed, open.due) = (native::now(), native::after(delay));
         if let Some(request) = layout.request {
-            self.state.message = match request {
+            let said = match request {
                 Request::Screenshot => open.frame.screenshot(&self.state, &self.table),
                 Request::SaveState => native::save_state(&self.state),
                 Request::Fullscreen => return open.toggle_fullscreen(),
             };
+            self.state.say(said);
             open.wake(open.passed);
         }
     }
