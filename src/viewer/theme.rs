@@ -15,6 +15,8 @@ pub fn apply(context: &Context) {
         style.spacing.button_padding = egui::vec2(6.0, 2.0);
         style.spacing.interact_size.y = 20.0;
         style.spacing.tooltip_width = 300.0;
+        // Beside what scrolls, not over it.
+        style.spacing.scroll.floating_allocated_width = 6.0;
         style.spacing.combo_height = 260.0;
         style.text_styles.insert(TextStyle::Heading, FontId::new(16.0, FontFamily::Proportional));
     });

@@ -1,7 +1,9 @@
 //! The user interface without a window: what presses, drags and keys make of the edits.
 
+mod controls;
 mod hands;
 mod panel;
+mod sections;
 
 use egui::accesskit::{Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
@@ -24,14 +26,27 @@ struct Window {
     layout: Layout,
     /// After how many seconds egui wants the next pass.
     delay: f64,
+    /// Of the next pass, in seconds.
+    time: f64,
+    /// In points.
+    size: egui::Vec2,
 }
 
+/// Between two passes, in seconds.
+const PACE: f64 = 1.0 / 60.0;
+
 impl Window {
+    /// High enough for all of the panel.
     fn new(scene: Scene) -> Self {
+        Self::of_size(scene, vec2(1280.0, 1400.0))
+    }
+
+    fn of_size(scene: Scene, size: egui::Vec2) -> Self {
         let context = egui::Context::default();
         context.enable_accesskit();
+        super::theme::apply(&context);
         let state = State::new("test.glb", scene, Edits::default());
-        let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0 };
+        let mut window = Self { context, state, nodes: vec![], layout: Layout::default(), delay: 0.0, time: 0.0, size };
         // egui finds the sizes of things by laying them out.
         for _ in 0..3 {
             window.pass(vec![]);
@@ -41,8 +56,9 @@ impl Window {
 
     /// A pass after these events; what it changes.
     fn pass(&mut self, events: Vec<Event>) -> Change {
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 1400.0)));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, self.size));
+        let input = RawInput { screen_rect, events, time: Some(self.time), ..RawInput::default() };
+        self.time += PACE;
         let mut shown = Layout::default();
         let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
         self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
@@ -64,6 +80,20 @@ impl Window {
             vec![press(to, false)],
         ];
         passes.into_iter().map(|events| self.pass(events)).max().unwrap()
+    }
+
+    /// Passes for so many seconds in which nothing happens.
+    fn wait(&mut self, seconds: f64) {
+        self.time += seconds;
+        self.pass(vec![]);
+    }
+
+    /// Presses a key and lets go of it.
+    fn key(&mut self, key: Key) {
+        for pressed in [true, false] {
+            let modifiers = Modifiers::NONE;
+            self.pass(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
+        }
     }
 
     fn click(&mut self, at: Pos2) -> Change {
@@ -106,15 +136,7 @@ impl Window {
             self.pass(vec![Event::Text(character.to_string())]);
             self.pass(vec![]);
         }
-        let key = |pressed| Event::Key {
-            key: Key::Enter,
-            physical_key: None,
-            pressed,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
-        self.pass(vec![key(true)]);
-        self.pass(vec![key(false)]);
+        self.key(Key::Enter);
     }
 }
 
