@@ -78,10 +78,8 @@ mod tests {
     /// All colours in what `Debug` prints of a value: whatever fields there are.
     fn colors(text: &str) -> Vec<[u8; 4]> {
         let of = |rest: &str| {
-            let digits = rest.split_once(' ').map_or(rest, |(digits, _)| digits);
-            let digits: String = digits.chars().take_while(char::is_ascii_hexdigit).collect();
-            let byte = |at: usize| u8::from_str_radix(&digits[at..at + 2], 16).unwrap();
-            [byte(0), byte(2), byte(4), byte(6)]
+            let digits: Vec<&str> = rest.get(..11).map_or(vec![], |digits| digits.split('_').collect());
+            [0, 1, 2, 3].map(|channel| u8::from_str_radix(digits[channel], 16).unwrap())
         };
         text.split('#').skip(1).map(of).collect()
     }

@@ -11,7 +11,7 @@ use crate::scene::{Drawn, Edits, Layering, Material, MaterialEdits, RoughnessMap
 /// Share of the base that is left when layering is first made manual.
 const MANUAL: f32 = 0.5;
 
-const NO_SHEEN: &str = "This material has no sheen: tick \"sheen\" to add one.";
+const NO_SHEEN: &str = "This material has no sheen: tick \"has a sheen\" to add one.";
 const UNLIT: &str = "This material is unlit: it shines in its base colour whatever lights it, so this changes nothing.";
 
 /// What is shown of a material.
@@ -77,7 +77,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
 
 fn sheen(ui: &mut Ui, shown: &Shown, own: &mut MaterialEdits) {
     let about = "The layer of fibres or dust on the material. Off takes it away, and on brings it back as it was.";
-    switch(ui, "sheen", About::unless(about, shown.unlit), shown.no_sheen.is_none()).apply(&mut own.sheen);
+    switch(ui, "has a sheen", About::unless(about, shown.unlit), shown.no_sheen.is_none()).apply(&mut own.sheen);
     let sheen = &shown.sheen;
     let textured = shown.has(TextureSlot::SheenColor) || shown.has(TextureSlot::SheenWeight);
     let about = match textured {

@@ -77,7 +77,7 @@ fn a_sheen_is_added_where_there_is_none() {
     scene.materials[0].sheen = None;
     scene.materials[0].alpha_mode = AlphaMode::Opaque;
     let mut window = Window::new(scene);
-    let switch = window.place(Role::CheckBox, "sheen").center();
+    let switch = window.place(Role::CheckBox, "has a sheen").center();
     assert_eq!(window.click(switch), Change::Scene);
     assert_eq!(window.state.drawn().materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.5)));
 }

@@ -68,6 +68,7 @@ fn a_sweep_moves_alpha_until_it_is_told_to_stop() {
         }
         assert!(least < 0.05 && most > 0.95, "from {least} to {most}");
         stop(&mut window);
+        window.pass(vec![]);
         assert!(window.state.sweep.is_none(), "{index}");
         let before = alpha(&window);
         window.wait(1.0);
@@ -131,7 +132,7 @@ fn a_sheen_goes_off_and_comes_back() {
     let mut window = full();
     let before = window.state.drawn().materials[0].sheen;
     for expected in [None, before] {
-        let at = window.place(Role::CheckBox, "sheen").center();
+        let at = window.place(Role::CheckBox, "has a sheen").center();
         assert_eq!(window.click(at), Change::Scene);
         assert_eq!(window.state.drawn().materials[0].sheen, expected);
     }
@@ -204,7 +205,7 @@ fn parts_fold_and_stay_folded() {
     let is_open = |window: &Window| !window.places(Role::Slider).is_empty();
     for title in ["Material", "Picture"] {
         assert!(is_open(&window));
-        let at = window.place(Role::Button, title).center();
+        let at = window.place(Role::DisclosureTriangle, title).center();
         window.click(at);
         for _ in 0..60 {
             window.pass(vec![]);

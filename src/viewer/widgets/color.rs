@@ -1,12 +1,10 @@
 //! Colours: a swatch with a picker, sRGB in hexadecimal, and linear numbers.
 
-use std::cell::Cell;
-
-use egui::{DragValue, Rgba, Ui, vec2};
+use egui::{Rgba, Ui, vec2};
 use glam::Vec3;
 
-use super::control::{About, Touch, control, double_click_control, refuse};
-use super::number::number_box;
+use super::control::{About, Touch, double_click_control};
+use super::number::{number_box, typed_box};
 use super::{LABEL, row};
 
 /// What egui's picker may add to a channel by rounding on the way through hue, saturation and value; the least that a
@@ -57,23 +55,15 @@ fn swatch(ui: &mut Ui, about: About, color: Vec3) -> Touch<Vec3> {
 /// A box for the colour as the web writes it.
 fn hex_box(ui: &mut Ui, about: About, color: Vec3) -> Touch<Vec3> {
     let text = "The same colour in sRGB as the web writes it, say #a0c030 or a0c030 or #ac3: type or paste it.";
-    let refusal = Cell::new(None);
-    let parse = |text: &str| {
-        let found = packed_from_hex(text);
-        if found.is_none() {
-            refusal.set(Some(format!("\"{}\" is no colour: give three or six digits, say #a0c030", text.trim())));
-        }
-        found.map(f64::from)
-    };
     // The number that the digits are: egui's box of numbers brings all that typing takes.
-    let touch = control(ui, About { text, ..about }, &packed(color), |ui, value| {
-        let height = ui.spacing().interact_size.y;
-        let hex = DragValue::new(value).speed(0.0).update_while_editing(false).min_size(vec2(72.0, height));
-        ui.add(hex.custom_formatter(|value, _| format!("#{:06x}", value as u32)).custom_parser(parse))
+    let before = packed(color);
+    let parse = |text: &str| match packed_from_hex(text) {
+        Some(typed) => Ok(Some(f64::from(typed)).filter(|_| typed != before)),
+        None => Err(format!("\"{}\" is no colour: give three or six digits, say #a0c030", text.trim())),
+    };
+    let touch = typed_box(ui, About { text, ..about }, before, parse, |hex| {
+        hex.speed(0.0).min_size(vec2(72.0, 0.0)).custom_formatter(|value, _| format!("#{:06x}", value as u32))
     });
-    if let Some(refusal) = refusal.take() {
-        refuse(ui, refusal);
-    }
     touch.map(unpacked)
 }
 

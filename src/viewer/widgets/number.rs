@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::ops::RangeInclusive;
 
-use egui::{Align, DragValue, Layout, Sense, Slider, SliderClamping, Ui, vec2};
+use egui::emath::Numeric;
+use egui::{Align, DragValue, Id, Key, Layout, Sense, Slider, SliderClamping, Ui, vec2};
 
 use super::control::{About, Touch, control, double_click_control, refuse};
 use super::row;
@@ -27,25 +28,53 @@ pub fn number_box<'a>(
     range: RangeInclusive<f32>,
     speed: f32,
 ) -> Touch<f32> {
-    let refusal = Cell::new(None);
     let before = f64::from(value);
-    let parse = |text: &str| {
-        let typed = typed(text, before);
-        if typed == Typed::Nonsense {
-            refusal.set(Some(format!("\"{}\" is no number: {} stays", text.trim(), written(before))));
+    let parse = |text: &str| match typed(text, before) {
+        Typed::Unchanged => Ok(None),
+        Typed::Number(number) => Ok(Some(number)),
+        Typed::Nonsense => Err(format!("\"{}\" is no number: {} stays", text.trim(), written(before))),
+    };
+    typed_box(ui, about.into(), value, parse, |number| {
+        let number = number.range(range).clamp_existing_to_range(false).speed(speed).min_size(vec2(BOX, 0.0));
+        number.custom_formatter(|value, _| written(value))
+    })
+}
+
+/// A box of a number that is typed in any form, and taken once the box is left by any key but Esc. `parse` makes a number
+/// of its text, or none where that is as it was; what it refuses is said.
+pub fn typed_box<T: Numeric>(
+    ui: &mut Ui,
+    about: About,
+    value: T,
+    parse: impl Fn(&str) -> Result<Option<f64>, String>,
+    change: impl FnOnce(DragValue) -> DragValue,
+) -> Touch<T> {
+    let is_left_by_esc = is_left_by_esc(ui);
+    let refusal = Cell::new(None);
+    let parse = |text: &str| match parse(text) {
+        Ok(number) => number.filter(|_| !is_left_by_esc),
+        Err(what) => {
+            refusal.set(Some(what));
+            None
         }
-        if let Typed::Number(number) = typed { Some(number) } else { None }
     };
     let touch = control(ui, about, &value, |ui, value| {
-        let height = ui.spacing().interact_size.y;
-        let number = DragValue::new(value).range(range).clamp_existing_to_range(false).speed(speed);
-        let number = number.update_while_editing(false).min_size(vec2(BOX, height));
-        ui.add(number.custom_formatter(|value, _| written(value)).custom_parser(parse))
+        ui.add(change(DragValue::new(value)).update_while_editing(false).custom_parser(parse))
     });
-    if let Some(refusal) = refusal.take() {
-        refuse(ui, refusal);
+    if let Some(what) = refusal.take().filter(|_| !is_left_by_esc) {
+        refuse(ui, what);
     }
     touch
+}
+
+/// Whether Esc was pressed in this pass or the last two: so long egui says that a box has just lost the focus, but not by
+/// which key, and takes what was typed.
+fn is_left_by_esc(ui: &Ui) -> bool {
+    let (id, pass) = (Id::unique("Esc"), ui.ctx().cumulative_pass_nr());
+    if ui.input(|input| input.key_pressed(Key::Escape)) {
+        ui.data_mut(|data| data.insert_temp(id, pass));
+    }
+    ui.data(|data| data.get_temp::<u64>(id)).is_some_and(|pressed| pass <= pressed + 2)
 }
 
 /// A slider without its box. It changes nothing until it is touched, either.
