@@ -25,7 +25,12 @@ pub fn show(ui: &mut Ui, picture: Rect, state: &mut State) {
     }
     ui.painter().rect_filled(picture, 0.0, ui.visuals().extreme_bg_color);
     let current = state.edits.of_material(material).alpha;
-    let taken = (0..Sheet::ALPHAS.len()).filter(|&index| cell(ui, picture, sheet, index, current)).last();
+    let mut taken = None;
+    for index in 0..Sheet::ALPHAS.len() {
+        if cell(ui, picture, sheet, index, current) {
+            taken = Some(index);
+        }
+    }
     if let Some(index) = taken {
         state.edits = sheet.edits_of(index, material);
     }

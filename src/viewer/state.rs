@@ -118,13 +118,13 @@ impl State {
     /// material is changed for another, and where alpha has been set by other means.
     pub fn sweep_on(&mut self, now: f64) -> bool {
         let Some(sweep) = &mut self.sweep else { return false };
-        let own = self.edits.materials.entry(sweep.material).or_default();
-        if own.alpha != sweep.last || sweep.material != self.material {
+        let own = self.edits.materials.get(&sweep.material).and_then(|own| own.alpha);
+        if own != sweep.last || sweep.material != self.material {
             self.sweep = None;
             return false;
         }
         sweep.last = Some(sweep.alpha(now));
-        own.alpha = sweep.last;
+        self.edits.materials.entry(sweep.material).or_default().alpha = sweep.last;
         true
     }
 

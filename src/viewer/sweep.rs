@@ -14,7 +14,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Goes up from this alpha; `set` is what the material's edits have for it.
+    /// Goes up from this alpha; `set` is what the material's own edits have for it.
     pub fn new(material: usize, alpha: f32, set: Option<f32>, now: f64) -> Self {
         Self { material, start: now - 0.5 * PERIOD * f64::from(alpha), last: set }
     }

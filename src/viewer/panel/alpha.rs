@@ -104,10 +104,8 @@ pub fn show_buttons(ui: &mut Ui, state: &mut State, alpha: f32, why_not: Option<
         let is_sweeping = state.sweep.is_some();
         let title = if is_sweeping { "stop sweeping" } else { "sweep alpha" };
         if button(ui, About::unless(about, why_not), Button::new(title).selected(is_sweeping)) {
-            let set = state.edits.of_material(state.material).alpha;
+            let set = state.edits.materials.get(&state.material).and_then(|own| own.alpha);
             let now = ui.input(|input| input.time);
-            let own = state.edits.materials.entry(state.material).or_default();
-            own.alpha = set;
             state.sweep = if is_sweeping { None } else { Some(Sweep::new(state.material, alpha, set, now)) };
             ui.ctx().request_repaint();
         }

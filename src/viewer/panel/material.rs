@@ -99,7 +99,7 @@ fn sheen(ui: &mut Ui, shown: &Shown, own: &mut MaterialEdits) {
         false => "How much of the surface the layer covers: 0 none of it, 1 all.",
         true => "How much of the surface the layer covers; the file has a texture for that, until it is changed.",
     };
-    share_row(ui, "covers", About::unless(about, shown.no_sheen), sheen.weight).apply(&mut own.sheen_weight);
+    share_row(ui, "coverage", About::unless(about, shown.no_sheen), sheen.weight).apply(&mut own.sheen_weight);
 }
 
 /// The rules of the sheen that a file leaves open.
@@ -133,7 +133,7 @@ fn rules(ui: &mut Ui, shown: &Shown, own: &mut MaterialEdits) {
         .alpha
         .and(Some("Alpha is set: the file's roughness does not count. Double-click alpha to use it again."));
     let named = About::unless(about, shown.no_sheen.or(set));
-    row(ui, "from file", about, |ui| list(ui, "roughness map", named, sheen.roughness_map, &maps))
+    row(ui, "roughness map", about, |ui| list(ui, "roughness map", named, sheen.roughness_map, &maps))
         .apply(&mut own.roughness_map);
     let about = "Which model of the layer is drawn: ltc is Velour's; the others are earlier work, to compare with.";
     let models: Vec<_> = SheenModel::NAMES

@@ -147,7 +147,7 @@ fn a_colour_that_is_changed_covers_as_much_as_before() {
     window.type_into(place, "#f00");
     let sheen = window.state.drawn().materials[0].sheen.unwrap();
     assert_eq!((sheen.color, sheen.weight), (Vec3::X, 0.25));
-    let place = window.in_row("covers", Role::SpinButton)[0];
+    let place = window.in_row("coverage", Role::SpinButton)[0];
     window.type_into(place, "0");
     assert_eq!(window.state.drawn().materials[0].sheen.map(|sheen| sheen.weight), Some(0.0));
 }
@@ -194,9 +194,44 @@ fn messages_stand_until_they_are_dismissed() {
     assert_eq!(window.state.messages.len(), 3);
     let row = window.place(Role::Label, "one").y_range();
     let buttons = window.places(Role::Button).into_iter();
-    let dismiss = buttons.filter(|place| row.contains(place.center().y)).last().unwrap();
+    let dismiss = buttons.filter(|place| row.contains(place.center().y)).next_back().unwrap();
     window.click(dismiss.center());
     assert_eq!(window.state.messages, ["two", "three"]);
+}
+
+#[test]
+fn what_was_said_of_the_exposure_goes_with_it() {
+    let mut window = Window::new(scene(1.0));
+    window.state.notices.push("all is black".to_owned());
+    window.state.say("all is black".to_owned());
+    window.state.say("saved".to_owned());
+    window.pass(vec![]);
+    let place = window.in_row("exposure", Role::SpinButton)[0];
+    window.type_into(place, "3");
+    assert_eq!(window.state.messages, ["saved"]);
+}
+
+#[test]
+fn one_line_says_how_things_stand() {
+    let mut window = Window::new(scene(1.0));
+    window.state.frame_time = Some(std::time::Duration::from_micros(8_340));
+    window.state.samples = Some(12);
+    window.state.doing = Some("sorting triangles".to_owned());
+    window.pass(vec![]);
+    window.place(Role::Label, "frame 8.3 ms, 12 of 64 samples, sorting triangles");
+}
+
+#[test]
+fn reset_ends_a_sweep_and_leaves_nothing() {
+    let mut window = full();
+    let at = window.place(Role::Button, "sweep alpha").center();
+    window.click(at);
+    window.wait(0.5);
+    let at = window.place(Role::Button, "Reset").center();
+    window.click(at);
+    window.wait(0.5);
+    assert!(window.state.sweep.is_none());
+    assert_eq!(window.state.edits, Edits::default());
 }
 
 #[test]
