@@ -17,7 +17,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     ui.add(Label::new(egui::RichText::new(&status).small()).truncate().selectable(false)).on_hover_text(&status);
     let mut request = None;
     ui.horizontal(|ui| {
-        // Undo and Redo stand here, before Reset.
+        // The place of Undo and Redo is here, before Reset.
         let about = "Puts scene, view and settings back as they were loaded.";
         if button(ui, about, Button::new("Reset")) {
             state.reset();
