@@ -104,7 +104,8 @@ fn materials(scene: &Scene, edits: &Edits) -> Vec<Material> {
         let mut changes = edits.of_material(index);
         if !is_loaded(material) && !own.gives_sheen() && !none_has {
             // What is said of the sheens of all materials is none of this one's business.
-            (changes.alpha, changes.sheen_color) = (None, None);
+            (changes.alpha, changes.sheen_color, changes.sheen_weight) = (None, None, None);
+            changes.sheen = changes.sheen.filter(|is_on| !is_on);
         }
         edited(material.clone(), &changes)
     };
@@ -136,8 +137,14 @@ fn edited(mut material: Material, edits: &MaterialEdits) -> Material {
             material.textures[TextureSlot::SheenColor as usize] = None;
             material.textures[TextureSlot::SheenWeight as usize] = None;
         }
+        if let Some(weight) = edits.sheen_weight {
+            sheen.weight = weight;
+            material.textures[TextureSlot::SheenWeight as usize] = None;
+        }
     }
-    // A black that is given stays a sheen.
-    material.sheen = material.sheen.filter(|sheen| edits.sheen_color.is_some() || is_seen(sheen));
+    // A black or a weight of 0 that is given stays a sheen.
+    let is_given = edits.sheen_color.is_some() || edits.sheen_weight.is_some();
+    let is_off = edits.sheen == Some(false);
+    material.sheen = material.sheen.filter(|sheen| !is_off && (is_given || is_seen(sheen)));
     material
 }

@@ -3,7 +3,6 @@
 use egui::{Popup, Rect, Ui};
 use glam::Vec2;
 
-use super::history;
 use super::request::Request;
 use super::state::State;
 use crate::scene::CameraEdit;
@@ -54,8 +53,8 @@ impl Command {
             }
             Self::Home => state.edits.camera = None,
             // Not in the midst of a change.
-            Self::Undo if history::is_settled(ui) => state.undo(),
-            Self::Redo if history::is_settled(ui) => state.redo(),
+            Self::Undo if state.is_settled(ui) => state.undo(),
+            Self::Redo if state.is_settled(ui) => state.redo(),
             Self::Undo | Self::Redo => {}
             Self::Screenshot => return Some(Request::Screenshot),
             Self::SaveState => return Some(Request::SaveState),
@@ -64,6 +63,7 @@ impl Command {
             Self::Keys => state.keys_shown = !state.keys_shown,
             Self::Close => {
                 state.keys_shown = false;
+                (state.sheet, state.sweep) = (None, None);
                 Popup::close_all(ui);
             }
         }

@@ -5,7 +5,7 @@ use egui::{Align2, Area, Id, Rect, Ui};
 use super::change::Change;
 use super::request::Request;
 use super::state::State;
-use super::{history, keys, navigate, panel};
+use super::{keys, navigate, panel, sheet_view};
 
 /// The outcome of a pass over the user interface.
 pub struct Layout {
@@ -27,6 +27,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let (before, outlined) = (state.edits.clone(), state.outlined);
     // Before the panel, where a key may end what is typed.
     let commands = keys::pressed(ui);
+    panel::sweep(ui, state);
     let area = ui.available_rect_before_wrap();
     fold(area, state);
     // egui may make the panel a little narrower than it is meant to be, with its content: the picture stays where it is.
@@ -39,6 +40,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
         request = panel.show(ui, |ui| panel::show(ui, state)).inner;
     }
     navigate::show(ui, picture, state);
+    sheet_view::show(ui, picture, state);
     keep(ui, state);
     for command in commands {
         request = command.run(ui, picture, state).or(request);
@@ -61,7 +63,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
 
 /// Once a change has come to its end, it can be undone.
 fn keep(ui: &Ui, state: &mut State) {
-    if history::is_settled(ui) {
+    if state.is_settled(ui) {
         state.history.keep(&state.edits, state.metered);
     }
 }

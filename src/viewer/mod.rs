@@ -10,12 +10,9 @@ mod hands;
 mod history;
 mod keys;
 mod layout;
-mod lights;
 mod loading;
-mod material;
 mod native;
 mod navigate;
-mod notices;
 mod open;
 mod order;
 mod pace;
@@ -28,9 +25,13 @@ mod resting;
 mod screen;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod server;
+mod sheet;
+mod sheet_view;
 mod state;
+mod sweep;
 #[cfg(test)]
 mod tests;
+mod theme;
 mod widgets;
 mod window;
 mod window_size;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::ViewportId;
+use egui::{TextureId, ViewportId};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
@@ -15,7 +15,7 @@ use super::order::{Left, Order, Report, Textures, Unseen, Work};
 use super::painter::Painter;
 use super::screen::Screen;
 use super::state::State;
-use super::window_size;
+use super::{sheet_view, theme, window_size};
 use crate::renderer::{Gpu, device};
 use crate::table::SheenTable;
 
@@ -50,12 +50,19 @@ pub(super) struct Open {
     is_hidden: bool,
     /// The comment of a picture that is to be kept.
     comment: Option<String>,
+    /// What has changed in the picture that the painter has not been told.
+    untold: Change,
+    /// Textures of the sheet's pictures that the painter has made.
+    tiles: Vec<TextureId>,
+    /// Whether egui wants its next pass as soon as the painter is free.
+    pub is_eager: bool,
 }
 
 impl Open {
     pub fn new(window: Arc<Window>, table: SheenTable, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let context = egui::Context::default();
+        theme::apply(&context);
         context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
         let egui = egui_winit::State::new(
             context.clone(),
@@ -85,6 +92,9 @@ impl Open {
             moved: now,
             is_hidden: false,
             comment: None,
+            untold: Change::None,
+            tiles: Vec::new(),
+            is_eager: false,
         })
     }
 
@@ -147,13 +157,20 @@ impl Open {
         (state.samples, state.notice) = (report.samples, report.notice);
         state.metered = report.metered.or(state.metered);
         state.frame_time = report.frame_time.or(state.frame_time);
+        if let Some((index, id)) = report.tile {
+            self.tiles.push(id);
+            if let Some(sheet) = &mut state.sheet {
+                sheet.pictures[index] = Some(id);
+                return Ok(true);
+            }
+        }
         if let Some(advice) = report.advice {
-            state.message.clone_from(&advice);
-            state.notices.push(advice);
+            state.notices.push(advice.clone());
+            state.say(advice);
         }
         let saved = report.saved.zip(self.comment.take());
         if let Some((saved, comment)) = saved {
-            state.message = saved.map_or_else(|error| error, |picture| native::save(&picture, &comment));
+            state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
             return Ok(true);
         }
         Ok(before != said(state))
@@ -182,31 +199,56 @@ impl Open {
         if self.busy.is_some() || size.width == 0 || size.height == 0 {
             return;
         }
-        let now = native::now();
-        let rests = self.rests_at().is_some_and(|at| at <= now) && !self.is_hidden;
-        let work = match state {
-            Some(_) if self.comment.is_some() => Work::Save,
-            _ if self.screen.is_stale() || rests || self.announced => Work::Frame,
-            _ => return,
-        };
+        let Some(work) = self.work(state) else { return };
+        let (now, stale) = (native::now(), self.screen.is_stale());
         if self.screen.change > Change::None {
             self.moved = now;
         }
-        let (change, stale) = (self.screen.change, self.screen.is_stale());
+        self.untold = self.untold.max(self.screen.change);
+        let change = if work == Work::Frame { std::mem::take(&mut self.untold) } else { Change::None };
         let order = Order {
             size: size.into(),
             place: self.screen.picture,
             pixels_per_point: self.screen.pixels_per_point,
             shapes: self.screen.presented(),
             textures: std::mem::take(&mut self.textures),
-            dropped: Vec::new(),
-            shot: state.map(|state| state.shot(change)),
+            dropped: self.unused_tiles(state),
+            shot: state.map(|state| match (work, &state.sheet) {
+                (Work::Tile(index, _), Some(sheet)) => state.shot_of(&sheet.edits_of(index, state.material)),
+                _ => state.shot(change),
+            }),
             work,
             stale,
             announced: self.announced,
         };
         self.busy = Some(now);
         self.painter.give(order);
+    }
+
+    /// What the painter is to do next.
+    fn work(&self, state: Option<&State>) -> Option<Work> {
+        let rests = self.rests_at().is_some_and(|at| at <= native::now()) && !self.is_hidden;
+        let sheet = state.and_then(|state| state.sheet.as_ref());
+        match sheet {
+            _ if state.is_some() && self.comment.is_some() => Some(Work::Save),
+            // Over the picture, which waits.
+            Some(_) if self.screen.is_stale() => Some(Work::Present),
+            Some(sheet) => {
+                let size = self.screen.pixels_per_point * sheet_view::image_size(self.screen.picture);
+                sheet.missing().map(|index| Work::Tile(index, [size.x as u32, size.y as u32].map(|side| side.max(1))))
+            }
+            None if self.screen.is_stale() || rests || self.announced => Some(Work::Frame),
+            None => None,
+        }
+    }
+
+    /// Textures that no sheet shows any more.
+    fn unused_tiles(&mut self, state: Option<&State>) -> Vec<TextureId> {
+        let sheet = state.and_then(|state| state.sheet.as_ref());
+        let is_used = |id: &TextureId| sheet.is_some_and(|sheet| sheet.pictures.contains(&Some(*id)));
+        let (used, unused) = std::mem::take(&mut self.tiles).into_iter().partition(is_used);
+        self.tiles = used;
+        unused
     }
 }
 

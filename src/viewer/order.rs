@@ -48,6 +48,8 @@ impl Drop for Textures {
 pub enum Work {
     /// The window. Where its picture is unfinished, more of that.
     Frame,
+    /// The window, and no more of its picture.
+    Present,
     /// The picture as it is shown, to be kept.
     Save,
     /// One of the sheet's pictures: its index, and its size in pixels.

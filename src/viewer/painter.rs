@@ -4,7 +4,7 @@ use super::frame::{Frame, is_software};
 use super::native;
 use super::order::{Order, Report, Shot, Work};
 use super::picture::Picture;
-use super::{ViewerError, order::Left};
+use super::ViewerError;
 use crate::picture::DisplayImage;
 use crate::renderer::{Gpu, Offscreen, RenderError};
 use crate::table::SheenTable;
@@ -47,6 +47,7 @@ impl Painter {
         }
         match work {
             Work::Frame => self.draw(&shot, place, (stale, announced), &mut report)?,
+            Work::Present => self.present(Some(&shot), place, &mut report)?,
             Work::Save => report.saved = Some(self.save(&shot, place)),
             Work::Tile(index, size) => self.tile(&shot, index, size, &mut report)?,
         }
@@ -116,7 +117,6 @@ impl Painter {
 
     /// One picture of the sheet.
     fn tile(&mut self, shot: &Shot, index: usize, size: [u32; 2], report: &mut Report) -> Result<(), ViewerError> {
-        report.left = Left::More;
         if let Some(picture) = &mut self.picture {
             let (id, view) = self.frame.add_texture(&self.gpu, size);
             picture.aside(&self.gpu, (&view, size), shot)?;

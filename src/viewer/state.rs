@@ -8,8 +8,10 @@ use glam::Vec3;
 use super::change::Change;
 use super::order::Shot;
 use super::hands::Hands;
-use super::history::{History, Step};
+use super::history::{self, History, Step};
 use super::pick;
+use super::sheet::Sheet;
+use super::sweep::Sweep;
 use crate::picture::Exposure;
 use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
@@ -33,8 +35,13 @@ pub struct State {
     pub metered: Option<f32>,
     /// What there is to say of the scene: by the loader, and of its first picture.
     pub notices: Vec<String>,
-    /// What became of the last command: a screenshot's name, or why there is none.
-    pub message: String,
+    /// What became of commands (a screenshot's name, or why there is none), the newest last; they stand until the user
+    /// has read them.
+    pub messages: Vec<String>,
+    /// Alpha on its way to and fro: while there is one, all that it sets is one change.
+    pub sweep: Option<Sweep>,
+    /// The sheet of nine alphas, while it lies over the picture.
+    pub sheet: Option<Sheet>,
     /// Whether the picture has the window to itself.
     pub panel_hidden: bool,
     /// Whether the list of keys lies over the picture.
@@ -74,7 +81,9 @@ impl State {
             frame_time: None,
             metered: None,
             notices: scene.notices.clone(),
-            message: String::new(),
+            messages: Vec::new(),
+            sweep: None,
+            sheet: None,
             panel_hidden: false,
             keys_shown: false,
             outlined: None,
@@ -119,6 +128,11 @@ impl State {
         }
     }
 
+    /// What a picture of the same view with other edits shows.
+    pub fn shot_of(&self, edits: &Edits) -> Shot {
+        Shot { edits: edits.clone(), ..self.shot(Change::None) }
+    }
+
     /// The view: a camera of the scene as it is, until the user turns it.
     pub fn camera(&self) -> Camera {
         self.edits.camera(&self.scene)
@@ -142,6 +156,11 @@ impl State {
         self.distance
     }
 
+    /// Whether a change has come to its end: nothing is held, typed or swept.
+    pub fn is_settled(&self, context: &egui::Context) -> bool {
+        self.sweep.is_none() && history::is_settled(context)
+    }
+
     /// Takes back the last change; the view stays.
     pub fn undo(&mut self) {
         if let Some(step) = self.history.undo().cloned() {
@@ -159,6 +178,26 @@ impl State {
     fn go_to(&mut self, Step { edits, metered }: Step) {
         self.edits = Edits { camera: self.edits.camera, ..edits };
         self.metered = metered;
+    }
+
+    /// Tells the user; what is said already is moved to the end.
+    pub fn say(&mut self, what: String) {
+        self.messages.retain(|said| *said != what);
+        self.messages.push(what);
+    }
+
+    /// Moves alpha on where it is being swept, to where it is at a time in seconds; whether it still is. It stops where the
+    /// material is changed for another, and where alpha has been set by other means.
+    pub fn sweep_on(&mut self, now: f64) -> bool {
+        let Some(sweep) = &mut self.sweep else { return false };
+        let own = self.edits.materials.get(&sweep.material).and_then(|own| own.alpha);
+        if own != sweep.last || sweep.material != self.material {
+            self.sweep = None;
+            return false;
+        }
+        sweep.last = Some(sweep.alpha(now));
+        self.edits.materials.entry(sweep.material).or_default().alpha = sweep.last;
+        true
     }
 
     /// The step of coordinates in the scene, metres.

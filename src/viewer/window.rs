@@ -109,7 +109,9 @@ impl App {
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         let textures = open.screen.take(&layout, output);
         open.textures.0.append(textures);
-        let delay = if open.screen.is_stale() { delay } else { delay.max(REST) };
+        // What moves by itself goes on as fast as it is drawn.
+        open.is_eager = delay.is_zero() && open.busy_for().is_some();
+        let delay = if open.screen.is_stale() && !open.is_eager { delay } else { delay.max(REST) };
         (open.passed, open.due) = (native::now(), native::after(delay));
         if self.loading.is_some() {
             open.wake_in(REST);
@@ -117,7 +119,10 @@ impl App {
         if let (Some(request), Some(state)) = (layout.request, &mut self.state) {
             match request {
                 Request::Screenshot => open.save_picture(native::comment(state)),
-                Request::SaveState => state.message = native::save_state(state),
+                Request::SaveState => {
+                    let said = native::save_state(state);
+                    state.say(said);
+                }
                 Request::Fullscreen => toggle_fullscreen(&open.window),
             }
             open.wake_in(Duration::ZERO);
@@ -137,7 +142,8 @@ impl App {
             (Some(open), None) => open.hear_nothing()?,
             (None, _) => false,
         };
-        if told || self.open.as_ref().is_some_and(Open::is_due) {
+        let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
+        if told || is_eager || self.open.as_ref().is_some_and(Open::is_due) {
             self.pass();
         }
         if let Some(open) = &mut self.open {

@@ -37,8 +37,9 @@ pub struct PictureArgs {
     /// alpha 0.5
     #[arg(long, value_name = "R,G,B", value_parser = read(Value::color), allow_hyphen_values = true)]
     pub sheen_color: Option<Vec3>,
-    /// Changes one material, by name or index: keys alpha and sheen-color (which give it a sheen if it has none),
-    /// roughness-map, sheen-model, layering, and base-color, metallic, roughness of the base; repeatable
+    /// Changes one material, by name or index: keys alpha, sheen-color and sheen-weight (which give it a sheen if it has
+    /// none), sheen (on or off), roughness-map, sheen-model, layering, and base-color, metallic, roughness of the base;
+    /// repeatable
     #[arg(long, value_name = "MATERIAL.KEY=VALUE", value_parser = assignment)]
     pub set: Vec<Assignment>,
     /// How much of the base is left under a sheen; manual=S leaves the share S in [0,1]; walk follows light through

@@ -27,13 +27,25 @@ fn entry<T: Into<Value>>(key: &'static str, value: Option<T>) -> Option<(&'stati
 }
 
 impl Keyed for MaterialEdits {
-    const KEYS: &'static [&'static str] =
-        &["alpha", "sheen-color", "roughness-map", "sheen-model", "layering", "base-color", "metallic", "roughness"];
+    const KEYS: &'static [&'static str] = &[
+        "sheen",
+        "alpha",
+        "sheen-color",
+        "sheen-weight",
+        "roughness-map",
+        "sheen-model",
+        "layering",
+        "base-color",
+        "metallic",
+        "roughness",
+    ];
 
     fn set(&mut self, key: &str, value: &Value) -> Result<(), String> {
         match key {
+            "sheen" => self.sheen = Some(value.on_or_off()?),
             "alpha" => self.alpha = Some(value.share()?),
             "sheen-color" => self.sheen_color = Some(value.color()?),
+            "sheen-weight" => self.sheen_weight = Some(value.share()?),
             "roughness-map" => self.roughness_map = Some(value.roughness_map()?),
             "sheen-model" => self.sheen_model = Some(value.sheen_model()?),
             "layering" => self.layering = Some(value.layering()?),
@@ -47,8 +59,10 @@ impl Keyed for MaterialEdits {
 
     fn entries(&self) -> Vec<(&'static str, Value)> {
         let entries = [
+            entry("sheen", self.sheen.map(Value::Switch)),
             entry("alpha", self.alpha),
             entry("sheen-color", self.sheen_color),
+            entry("sheen-weight", self.sheen_weight),
             entry("roughness-map", self.roughness_map.map(|map| map.name())),
             entry("sheen-model", self.sheen_model.map(|model| model.name())),
             entry("layering", self.layering.map(|rule| Value::Text(rule.name()))),

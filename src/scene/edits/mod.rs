@@ -41,7 +41,7 @@ pub struct Edits {
     pub tone: Option<ToneCurve>,
     /// From where the scene is seen.
     pub camera: Option<CameraEdit>,
-    /// What is changed in all materials; alpha and the sheen's colour only in those that have a sheen, unless none has.
+    /// What is changed in all materials; what gives a sheen only in those that have one, unless none has.
     pub every_material: MaterialEdits,
     /// What is changed in single materials, by their index into `Scene::materials`; it takes precedence over
     /// `every_material`.
@@ -62,11 +62,17 @@ pub enum CameraEdit {
 /// What is changed in a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MaterialEdits {
+    /// Whether there is a sheen: off takes away the one that is there, whatever else is set of it, and on gives one where
+    /// there is none, white and of alpha 0.5 but for what else is set.
+    pub sheen: Option<bool>,
     /// The sheen's alpha itself, in [0, 1], whatever the roughness map and the textures.
     pub alpha: Option<f32>,
     /// The sheen's colour, linear Rec. 709, each in [0, 1], whatever the textures; the layer then covers all of the
-    /// surface.
+    /// surface, unless `sheen_weight` says how much.
     pub sheen_color: Option<Vec3>,
+    /// How much of the surface the sheen covers, in [0, 1], whatever the texture of that. It scales the sheen's colour,
+    /// and is the F of OpenPBR's layering.
+    pub sheen_weight: Option<f32>,
     /// How alpha follows from the sheen's roughness.
     pub roughness_map: Option<RoughnessMap>,
     /// What the sheen's lobe is.
@@ -162,8 +168,10 @@ impl MaterialEdits {
     /// These, and `others` where these are `None`.
     pub fn or(self, others: Self) -> Self {
         Self {
+            sheen: self.sheen.or(others.sheen),
             alpha: self.alpha.or(others.alpha),
             sheen_color: self.sheen_color.or(others.sheen_color),
+            sheen_weight: self.sheen_weight.or(others.sheen_weight),
             roughness_map: self.roughness_map.or(others.roughness_map),
             sheen_model: self.sheen_model.or(others.sheen_model),
             layering: self.layering.or(others.layering),
@@ -176,8 +184,10 @@ impl MaterialEdits {
     /// Those of these that `others` have, too.
     fn where_set(self, others: &Self) -> Self {
         Self {
+            sheen: self.sheen.filter(|_| others.sheen.is_some()),
             alpha: self.alpha.filter(|_| others.alpha.is_some()),
             sheen_color: self.sheen_color.filter(|_| others.sheen_color.is_some()),
+            sheen_weight: self.sheen_weight.filter(|_| others.sheen_weight.is_some()),
             roughness_map: self.roughness_map.filter(|_| others.roughness_map.is_some()),
             sheen_model: self.sheen_model.filter(|_| others.sheen_model.is_some()),
             layering: self.layering.filter(|_| others.layering.is_some()),
@@ -189,7 +199,8 @@ impl MaterialEdits {
 
     /// Whether they give a material a sheen that has none.
     pub fn gives_sheen(&self) -> bool {
-        self.alpha.is_some() || self.sheen_color.is_some()
+        let is_set = self.alpha.is_some() || self.sheen_color.is_some() || self.sheen_weight.is_some();
+        self.sheen.unwrap_or(is_set)
     }
 }
 

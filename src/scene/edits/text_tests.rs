@@ -28,7 +28,9 @@ fn scene() -> Scene {
 /// Edits in which everything that can be set is set.
 fn full() -> Edits {
     let material = MaterialEdits {
+        sheen: Some(false),
         alpha: Some(0.3),
+        sheen_weight: Some(0.25),
         sheen_color: Some(Vec3::new(0.1, 1.0 / 3.0, 1.0)),
         roughness_map: Some(RoughnessMap::Sqrt),
         sheen_model: Some(SheenModel::ContyKulla),

@@ -97,6 +97,16 @@ impl Value {
         }
     }
 
+    /// True or false, or in words, as flags have it: `on` or `off`.
+    pub fn on_or_off(&self) -> Checked<bool> {
+        match (self, self.text()) {
+            (Self::Switch(switch), _) => Ok(*switch),
+            (_, Some("on")) => Ok(true),
+            (_, Some("off")) => Ok(false),
+            _ => Err("give on or off (in a file true or false)".to_owned()),
+        }
+    }
+
     /// The name of a tone curve.
     pub fn tone(&self) -> Checked<ToneCurve> {
         self.one_of(&ToneCurve::NAMES)
@@ -234,6 +244,8 @@ mod tests {
         }
         assert_eq!((flag("-2.5").exposure(), flag("auto").exposure()), (Ok((-2.5).into()), Ok(Exposure::Auto)));
         assert_eq!((flag("0").strength(), flag("inf").far()), (Ok(0.0), Ok(f32::INFINITY)));
+        assert_eq!((flag("on").on_or_off(), flag("off").on_or_off()), (Ok(true), Ok(false)));
+        assert_eq!(Value::Switch(true).on_or_off(), Ok(true));
         assert_eq!(flag("sheen").lobes(), Ok(Lobes { sheen: true, ..Lobes::NONE }));
         assert_eq!(flag("none").lobes(), Ok(Lobes::NONE));
         assert_eq!(flag("manual=0.25").layering(), Ok(Layering::Manual(0.25)));
@@ -267,6 +279,7 @@ mod tests {
             let value = flag(text);
             assert!(value.roughness_map().is_err() && value.sheen_model().is_err() && value.layering().is_err());
             assert!(value.tone().is_err() && value.switch().is_err() && value.lobes().is_err(), "{text}");
+            assert!(value.on_or_off().is_err(), "{text}");
         }
         for text in ["", "1,1", "1,1,1,1", ",,", "1,1,nan", "1,inf,0", "1e40,0,0", "1"] {
             assert!(flag(text).color().is_err() && flag(text).radiance().is_err() && flag(text).point().is_err());

@@ -109,6 +109,46 @@ fn what_is_given_stands_whatever_the_material_has_there() {
 }
 
 #[test]
+fn a_sheen_goes_off_and_comes_back_as_it_was() {
+    let red = Sheen { weight: 0.5, ..Sheen::new(Vec3::X, 0.25) };
+    let switched = |sheen, edits| MaterialEdits { sheen: Some(sheen), ..edits };
+    for edits in [given(None, None), given(Some(0.7), None), given(None, Some(Vec3::Y))] {
+        for own in [Some(red), None] {
+            let scene = of(&[own]);
+            assert_eq!(sheens(&scene, &one(0, switched(false, edits))), [None], "{edits:?}");
+            let on = sheens(&scene, &one(0, switched(true, edits)));
+            let added = Some(Sheen::new(Vec3::ONE, 0.5)).filter(|_| own.is_none() && !edits.gives_sheen());
+            assert_eq!(on[0], added.or(sheens(&scene, &one(0, edits))[0]), "{edits:?}");
+        }
+    }
+    // Of all materials off is for all, on for those that have one, unless none has.
+    let all = |sheen| every(switched(sheen, MaterialEdits::default()));
+    assert_eq!(sheens(&of(&[None, Some(red)]), &all(false)), [None; 2]);
+    assert_eq!(sheens(&of(&[None, Some(red)]), &all(true)), [None, Some(red)]);
+    assert_eq!(sheens(&of(&[None, None]), &all(true)), [Some(Sheen::new(Vec3::ONE, 0.5)); 2]);
+}
+
+#[test]
+fn a_weight_scales_what_is_there_and_stands_beside_a_colour() {
+    let weighted = |weight, edits| MaterialEdits { sheen_weight: Some(weight), ..edits };
+    let red = Sheen { weight: 0.5, ..Sheen::new(Vec3::X, 0.25) };
+    let mut scene = of(&[Some(red)]);
+    let texture = TextureUse { texture: 0, tex_coord: 0, uv_from_tex_coord: Default::default() };
+    scene.materials[0].textures = [Some(texture); TextureSlot::COUNT];
+    // 0 stays a sheen, so that it can be turned up again.
+    for weight in [0.0, 0.25, 1.0] {
+        let drawn = Drawn::new(&scene, &one(0, weighted(weight, given(None, None))));
+        assert_eq!(drawn.materials[0].sheen, Some(Sheen { weight, ..red }));
+        let lost = TextureSlot::ALL.into_iter().filter(|&slot| drawn.materials[0].texture(slot).is_none());
+        assert_eq!(lost.collect::<Vec<_>>(), [TextureSlot::SheenWeight]);
+        let colored = sheens(&scene, &one(0, weighted(weight, given(None, Some(Vec3::Y)))));
+        assert_eq!(colored, [Some(Sheen { weight, color: Vec3::Y, ..red })]);
+    }
+    let added = sheens(&of(&[None]), &one(0, weighted(0.25, given(None, None))));
+    assert_eq!(added, [Some(Sheen { weight: 0.25, ..Sheen::new(Vec3::ONE, 0.5) })]);
+}
+
+#[test]
 fn black_fibres_count_where_they_hide_the_base() {
     let fuzz = Sheen { weight: 0.5, ..Sheen::new(Vec3::ZERO, 0.3) };
     assert_eq!(sheens(&of(&[Some(fuzz)]), &Edits::default()), [None]);

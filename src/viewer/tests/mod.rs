@@ -1,10 +1,12 @@
 //! The user interface without a window: what presses, drags and keys make of the edits.
 
 mod flight;
+mod controls;
 mod hands;
 mod keyboard;
 mod panel;
 mod undoing;
+mod sections;
 
 use egui::accesskit::{Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, ViewportId, pos2, vec2};
@@ -33,16 +35,28 @@ struct Window {
     pace: f32,
     /// After how many seconds egui wants the next pass.
     delay: f64,
+    /// Of the next pass, in seconds.
+    time: f64,
 }
 
+/// Between two passes, in seconds.
+const PACE: f64 = 1.0 / 60.0;
+
 impl Window {
+    /// High enough for all of the panel.
     fn new(scene: Scene) -> Self {
+        Self::of_size(scene, vec2(1280.0, 1400.0))
+    }
+
+    fn of_size(scene: Scene, size: egui::Vec2) -> Self {
         let context = egui::Context::default();
         context.enable_accesskit();
+        super::theme::apply(&context);
         let state = State::new("test.glb", scene, Edits::default());
-        let (size, modifiers, pace) = (vec2(1280.0, 1400.0), Modifiers::NONE, 1.0 / 60.0);
+        let (modifiers, pace) = (Modifiers::NONE, PACE as f32);
         let layout = Layout::default();
-        let mut window = Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0 };
+        let mut window =
+            Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0, time: 0.0 };
         // egui finds the sizes of things by laying them out.
         for _ in 0..3 {
             window.pass(vec![]);
@@ -56,7 +70,8 @@ impl Window {
             events.insert(0, Event::ModifiersChanged(self.modifiers));
         }
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, self.size));
-        let input = RawInput { screen_rect, events, predicted_dt: self.pace, ..RawInput::default() };
+        let input = RawInput { screen_rect, events, predicted_dt: self.pace, time: Some(self.time), ..RawInput::default() };
+        self.time += f64::from(self.pace);
         let mut shown = Layout::default();
         let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
         self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
@@ -86,6 +101,12 @@ impl Window {
             vec![press(to, false)],
         ];
         passes.into_iter().map(|events| self.pass(events)).max().unwrap()
+    }
+
+    /// Passes for so many seconds in which nothing happens.
+    fn wait(&mut self, seconds: f64) {
+        self.time += seconds;
+        self.pass(vec![]);
     }
 
     fn click(&mut self, at: Pos2) -> Change {

@@ -44,7 +44,7 @@ fn the_alpha_slider_is_alpha_itself_and_reset_takes_it_back() {
     scene.materials[0].textures[TextureSlot::SheenRoughness as usize] = Some(texture);
     let mut window = Window::new(scene);
     let slider = window.places(Role::Slider)[0];
-    let change = window.drag(PointerButton::Primary, slider.left_center(), slider.right_center() - vec2(20.0, 0.0));
+    let change = window.drag(PointerButton::Primary, slider.left_center(), slider.right_center() - vec2(40.0, 0.0));
     assert_eq!(change, Change::Materials);
     let alpha = window.state.edits.materials[&0].alpha.unwrap();
     assert!(alpha > 0.6, "{alpha}");
@@ -77,17 +77,17 @@ fn a_sheen_is_added_where_there_is_none() {
     scene.materials[0].sheen = None;
     scene.materials[0].alpha_mode = AlphaMode::Opaque;
     let mut window = Window::new(scene);
-    let button = window.place(Role::Button, "Add a sheen").center();
-    assert_eq!(window.click(button), Change::Materials);
+    let switch = window.place(Role::CheckBox, "has a sheen").center();
+    assert_eq!(window.click(switch), Change::Materials);
     assert_eq!(window.state.drawn().materials[0].sheen, Some(Sheen::new(Vec3::ONE, 0.5)));
 }
 
 #[test]
 fn lights_keep_their_hue_when_they_are_turned_down_and_up() {
     let mut window = full();
-    for (row, loaded) in [("radiance", Vec3::new(4.0, 2.0, 1.0)), ("ambient", Vec3::new(0.1, 0.2, 0.3))] {
+    for (row, loaded) in [("radiance", Vec3::new(4.0, 2.0, 1.0)), ("ambient light", Vec3::new(0.1, 0.2, 0.3))] {
         let radiance = |window: &Window| match row {
-            "ambient" => window.state.edits.settings().ambient,
+            "ambient light" => window.state.edits.settings().ambient,
             _ => window.state.drawn().lights[0].radiance,
         };
         assert_eq!(radiance(&window), loaded);
@@ -129,7 +129,7 @@ fn a_material_that_is_edited_takes_nothing_from_the_others() {
     let mut window = Window::new(scene);
     window.state.edits.every_material.alpha = Some(0.5);
     window.pass(vec![]);
-    let number = window.in_row("fuzz", Role::SpinButton)[0];
+    let number = window.in_row("alpha", Role::SpinButton)[0];
     window.type_into(number, "0.7");
     let drawn = window.state.drawn();
     let alphas: Vec<_> = drawn.materials.iter().map(|material| material.sheen.map(|sheen| sheen.alpha())).collect();
@@ -143,7 +143,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
         // Longer and finer than what the boxes show.
         for (text, expected) in [("2.3", 2.3), ("-0.0456", -0.0456), ("1234.567", 1234.567), ("0.12345", 0.12345)] {
             for axis in 0..3 {
-                let place = window.below("position", Role::SpinButton)[axis];
+                let place = window.in_row("position", Role::SpinButton)[axis];
                 window.type_into(place, text);
                 assert_eq!(window.state.edits.of_light(0).position.unwrap()[axis], expected, "{text} {size}");
             }
@@ -153,11 +153,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
         }
         let fractions = [("alpha", "0.12345"), ("metallic", "0.4567"), ("exposure", "1.2345")];
         for (row, text) in fractions {
-            // The slider of alpha stands below its label.
-            let place = match row {
-                "alpha" => window.in_row("fuzz", Role::SpinButton)[0],
-                _ => window.in_row(row, Role::SpinButton)[0],
-            };
+            let place = window.in_row(row, Role::SpinButton)[0];
             window.type_into(place, text);
             let own = window.state.edits.of_material(0);
             let exposure = window.state.edits.exposure.map(|_| window.state.settings().exposure);
@@ -171,7 +167,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
 fn a_drag_of_a_position_is_in_the_scenes_proportion() {
     for size in [1e-3, 1.0, 1e3] {
         let mut window = Window::new(scene(size));
-        let place = window.below("position", Role::SpinButton)[0].center();
+        let place = window.in_row("position", Role::SpinButton)[0].center();
         window.drag(PointerButton::Primary, place, place + vec2(100.0, 0.0));
         let moved = window.state.edits.of_light(0).position.unwrap().x - window.state.scene.lights[0].position().x;
         assert!((0.02..2.0).contains(&(moved / size)), "{moved} m in a scene of {size} m");
@@ -181,7 +177,7 @@ fn a_drag_of_a_position_is_in_the_scenes_proportion() {
 #[test]
 fn requests_reach_the_window() {
     let mut window = Window::new(scene(1.0));
-    for (button, request) in [("Save screenshot", Request::Screenshot), ("Save state", Request::SaveState)] {
+    for (button, request) in [("Save picture", Request::Screenshot), ("Save state", Request::SaveState)] {
         let at = window.place(Role::Button, button).center();
         let press = |pressed| Event::PointerButton {
             pos: at,

@@ -1,0 +1,81 @@
+//! The list of materials.
+
+use egui::{ComboBox, PopupCloseBehavior, ScrollArea, TextEdit, Ui};
+
+use super::super::state::State;
+use super::super::widgets::short;
+
+/// A list of more materials than this has a box to search it.
+const MANY: usize = 12;
+
+/// Most characters of a name in the list.
+const NAME_SHOWN: usize = 40;
+
+/// Lets the user pick a material, where there are several.
+pub fn show(ui: &mut Ui, state: &mut State) {
+    let names: Vec<&str> = state.scene.materials.iter().map(|material| material.name.as_str()).collect();
+    if names.len() <= 1 {
+        return;
+    }
+    let before = state.material;
+    // Names may repeat, or be empty.
+    let title = |index: usize| format!("{index} {}", names[index]);
+    let list = ComboBox::from_id_salt("materials").width(ui.available_width()).truncate();
+    let list = list.selected_text(short(&title(before), NAME_SHOWN));
+    let list = list.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show_ui(ui, |ui| {
+        let search = ui.scope_id().with("search");
+        let mut wanted: String = ui.data(|data| data.get_temp(search)).unwrap_or_default();
+        if names.len() > MANY {
+            let hint = format!("search {} materials", names.len());
+            let entry = ui.add(TextEdit::singleline(&mut wanted).hint_text(hint).desired_width(f32::INFINITY));
+            entry.on_hover_text("Shows the materials whose names or numbers hold this text.");
+            ui.data_mut(|data| data.insert_temp(search, wanted.clone()));
+        }
+        let found = found(&names, &wanted);
+        let height = ui.text_style_height(&egui::TextStyle::Button) + 2.0 * ui.spacing().button_padding.y;
+        ScrollArea::vertical().max_height(220.0).show_rows(ui, height, found.len(), |ui, rows| {
+            for &index in &found[rows] {
+                let name = ui.selectable_label(index == state.material, short(&title(index), NAME_SHOWN));
+                if name.on_hover_text(names[index]).clicked() {
+                    state.material = index;
+                    ui.close();
+                }
+            }
+        });
+        if found.is_empty() {
+            ui.weak("none has this in its name");
+        }
+    });
+    list.response.on_hover_text(format!("{}\nThe material that is shown and changed below.", names[before]));
+    if state.material != before {
+        // It shows the other one.
+        state.sheet = None;
+    }
+}
+
+/// The materials whose number and name hold a text, whatever its case.
+fn found(names: &[&str], wanted: &str) -> Vec<usize> {
+    let wanted = wanted.trim().to_lowercase();
+    let holds = |&index: &usize| format!("{index} {}", names[index]).to_lowercase().contains(&wanted);
+    (0..names.len()).filter(holds).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wanted_is_found_whatever_its_case() {
+        let names = ["Velvet", "felt.001", "felt", "", "GRÜN velvet"];
+        for (wanted, expected) in [
+            ("", vec![0, 1, 2, 3, 4]),
+            ("velvet ", vec![0, 4]),
+            ("FELT", vec![1, 2]),
+            ("grün", vec![4]),
+            ("3", vec![3]),
+        ] {
+            assert_eq!(found(&names, wanted), expected, "{wanted}");
+        }
+        assert!(found(&names, "silk").is_empty());
+    }
+}

@@ -1,0 +1,82 @@
+//! The sheet of nine alphas, where it lies over the picture.
+
+use egui::accesskit::Role;
+use egui::{Align2, Color32, Rect, Sense, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::sheet::Sheet;
+use super::state::State;
+
+/// How many pictures stand beside each other.
+const SIDE: usize = 3;
+
+/// Between pictures, in points.
+const GAP: f32 = 4.0;
+
+/// The height of a caption, in points.
+const CAPTION: f32 = 20.0;
+
+/// Shows the sheet where it is open: a click takes an alpha and closes it, as Esc does without.
+pub fn show(ui: &mut Ui, picture: Rect, state: &mut State) {
+    let (now, material) = (Sheet::new(&state.edits, state.material), state.material);
+    let Some(sheet) = &mut state.sheet else { return };
+    if sheet.edits != now.edits {
+        // Its pictures are of something else.
+        *sheet = now;
+    }
+    ui.painter().rect_filled(picture, 0.0, ui.visuals().extreme_bg_color);
+    let current = state.edits.of_material(material).alpha;
+    let mut taken = None;
+    for index in 0..Sheet::ALPHAS.len() {
+        if cell(ui, picture, sheet, index, current) {
+            taken = Some(index);
+        }
+    }
+    if let Some(index) = taken {
+        state.edits = sheet.edits_of(index, material);
+    }
+    if taken.is_some() {
+        state.sheet = None;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// One picture of the sheet and its caption; whether it is taken.
+fn cell(ui: &Ui, picture: Rect, sheet: &Sheet, index: usize, current: Option<f32>) -> bool {
+    let [place, image] = image(picture, index);
+    let caption = format!("alpha {}", Sheet::ALPHAS[index]);
+    // Drags, too, so that none of them turns what lies below.
+    let response = ui.interact(place, ui.scope_id().with(("sheet", index)), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &caption));
+    let (visuals, painter) = (ui.style().interact(&response), ui.painter().with_clip_rect(place.expand(GAP)));
+    match &sheet.pictures[index] {
+        Some(texture) => {
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.image(*texture, image, uv, Color32::WHITE);
+        }
+        None => {
+            painter.rect_filled(image, 2.0, ui.visuals().faint_bg_color);
+            let font = TextStyle::Body.resolve(ui.style());
+            painter.text(image.center(), Align2::CENTER_CENTER, "drawing …", font, ui.visuals().weak_text_color());
+        }
+    }
+    let is_current = current == Some(Sheet::ALPHAS[index]);
+    if is_current || response.hovered() || response.has_focus() {
+        painter.rect_stroke(image, 2.0, (2.0, visuals.fg_stroke.color), StrokeKind::Outside);
+    }
+    let below = pos2(place.center().x, place.max.y - 0.5 * CAPTION);
+    painter.text(below, Align2::CENTER_CENTER, caption, TextStyle::Body.resolve(ui.style()), visuals.text_color());
+    response.on_hover_text("Click to take this alpha and go back to the picture. Esc goes back without it.").clicked()
+}
+
+/// Where the picture of a cell is, of the sheet over such a picture.
+fn image(picture: Rect, index: usize) -> [Rect; 2] {
+    let size = picture.size() / SIDE as f32;
+    let corner = picture.min + size * vec2((index % SIDE) as f32, (index / SIDE) as f32);
+    let place = Rect::from_min_size(corner, size).shrink(GAP);
+    [place, place.with_max_y(place.max.y - CAPTION)]
+}
+
+/// The size of the sheet's pictures over such a picture, in points.
+pub fn image_size(picture: Rect) -> Vec2 {
+    image(picture, 0)[1].size().max(Vec2::splat(1.0))
+}
