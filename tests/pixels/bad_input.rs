@@ -53,7 +53,7 @@ fn flags_out_of_range() {
         ("--sheen-model slab", "the sheen-model slab takes a path tracer"),
         ("--set felt", "MATERIAL.KEY=VALUE"),
         ("--set felt.alpha=2", "[0,1]"),
-        ("--set felt.hue=2", "the keys are alpha"),
+        ("--set felt.hue=2", "the keys are sheen, alpha"),
         ("--lights-visible maybe", "--lights-visible"),
         ("--msaa 2", "--msaa"),
         ("--nonsense", "--nonsense"),

@@ -50,7 +50,10 @@ mod tests {
             ("felt", "MATERIAL.KEY=VALUE"),
             ("felt=0.3", "MATERIAL.KEY=VALUE"),
             ("felt.alpha", "MATERIAL.KEY=VALUE"),
-            ("felt.colour=1,1,1", "colour: the keys are alpha, sheen-color, roughness-map, sheen-model, layering,"),
+            (
+                "felt.colour=1,1,1",
+                "colour: the keys are sheen, alpha, sheen-color, sheen-weight, roughness-map, sheen-model, layering,",
+            ),
             ("felt.alpha=2", "alpha: give a number in [0,1]"),
             ("felt.sheen-color=1", "sheen-color: give three numbers in [0,1]"),
             ("felt.layering=manual=2", "layering: give gltf, openpbr"),
