@@ -84,7 +84,8 @@ impl Reprojection {
     ) {
         let uniforms = Uniforms::new(view, other.view, other.size[1]);
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
-        let new = || (targets.size, attachment(device, "shares", (targets.size, 1, FORMAT), TextureUsages::TEXTURE_BINDING));
+        let new =
+            || (targets.size, attachment(device, "shares", (targets.size, 1, FORMAT), TextureUsages::TEXTURE_BINDING));
         let shares = match self.shares.take() {
             Some(shares) if shares.0 == targets.size => shares,
             _ => new(),

@@ -1,10 +1,10 @@
 //! What draws the window, on a thread of its own, so that the window answers however long a frame takes.
 
+use super::ViewerError;
 use super::frame::{Frame, is_software};
 use super::native;
 use super::order::{Order, Report, Shot, Work};
 use super::picture::Picture;
-use super::ViewerError;
 use crate::picture::DisplayImage;
 use crate::renderer::{Gpu, Offscreen, RenderError};
 use crate::table::SheenTable;

@@ -6,9 +6,9 @@ use std::time::Duration;
 use glam::Vec3;
 
 use super::change::Change;
-use super::order::Shot;
 use super::hands::Hands;
 use super::history::{self, History, Step};
+use super::order::Shot;
 use super::pick;
 use super::sheet::Sheet;
 use super::sweep::Sweep;

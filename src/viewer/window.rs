@@ -205,15 +205,15 @@ impl ApplicationHandler for App {
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
-        // egui sees only the result of what happens between two passes. On a slow driver that may be a whole drag, so
-        // each press and each release gets a pass of its own.
-        let button = matches!(event, WindowEvent::MouseInput { .. });
-        if button {
+        // egui sees only the result of what happens between two passes. That may be a whole drag, or a number with the key that
+        // leaves its box, so each press and each release gets a pass of its own.
+        let is_press = matches!(event, WindowEvent::MouseInput { .. } | WindowEvent::KeyboardInput { .. });
+        if is_press {
             self.pass();
         }
         let Some(open) = &mut self.open else { return };
         let response = open.egui.on_window_event(&open.window, &event);
-        if button {
+        if is_press {
             self.pass();
         }
         let when = self.when_to_tell(&event);

@@ -57,7 +57,8 @@ pub const FLOORS: [&[&str]; 22] = [
 ];
 
 /// Whole passes of one file: they name nobody else's, and nobody names theirs.
-const ALONE: [&str; 4] = ["passes/accumulation", "passes/denoise", "passes/display", "passes/outline"];
+const ALONE: [&str; 5] =
+    ["passes/accumulation", "passes/denoise", "passes/display", "passes/outline", "passes/reprojection"];
 
 fn all() -> impl Iterator<Item = &'static str> {
     FLOORS.concat().into_iter().chain(ALONE)

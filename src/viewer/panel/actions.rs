@@ -16,11 +16,17 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     ui.add(Label::new(egui::RichText::new(&status).small()).truncate().selectable(false)).on_hover_text(&status);
     let mut request = None;
     ui.horizontal(|ui| {
-        let undo = About::unless("Takes back the last change; the view stays (Ctrl-Z).", (!state.history.can_undo()).then_some("There is nothing to undo."));
+        let undo = About::unless(
+            "Takes back the last change; the view stays (Ctrl-Z).",
+            (!state.history.can_undo()).then_some("There is nothing to undo."),
+        );
         if button(ui, undo, Button::new("Undo")) && state.is_settled(ui) {
             state.undo();
         }
-        let redo = About::unless("Does again what was undone last (Ctrl-Shift-Z).", (!state.history.can_redo()).then_some("There is nothing to redo."));
+        let redo = About::unless(
+            "Does again what was undone last (Ctrl-Shift-Z).",
+            (!state.history.can_redo()).then_some("There is nothing to redo."),
+        );
         if button(ui, redo, Button::new("Redo")) && state.is_settled(ui) {
             state.redo();
         }

@@ -1,12 +1,12 @@
 //! The user interface without a window: what presses, drags and keys make of the edits.
 
-mod flight;
 mod controls;
+mod flight;
 mod hands;
 mod keyboard;
 mod panel;
-mod undoing;
 mod sections;
+mod undoing;
 
 use egui::accesskit::{Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, ViewportId, pos2, vec2};
@@ -55,8 +55,7 @@ impl Window {
         let state = State::new("test.glb", scene, Edits::default());
         let (modifiers, pace) = (Modifiers::NONE, PACE as f32);
         let layout = Layout::default();
-        let mut window =
-            Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0, time: 0.0 };
+        let mut window = Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0, time: 0.0 };
         // egui finds the sizes of things by laying them out.
         for _ in 0..3 {
             window.pass(vec![]);
@@ -70,7 +69,8 @@ impl Window {
             events.insert(0, Event::ModifiersChanged(self.modifiers));
         }
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, self.size));
-        let input = RawInput { screen_rect, events, predicted_dt: self.pace, time: Some(self.time), ..RawInput::default() };
+        let input =
+            RawInput { screen_rect, events, predicted_dt: self.pace, time: Some(self.time), ..RawInput::default() };
         self.time += f64::from(self.pace);
         let mut shown = Layout::default();
         let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
