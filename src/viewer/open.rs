@@ -225,9 +225,18 @@ impl Open {
         self.painter.give(order);
     }
 
-    /// What the painter is to do next.
+    /// The system has something of the window shown again.
+    pub fn expose(&mut self) {
+        self.is_hidden = false;
+        self.screen.lose();
+    }
+
+    /// What the painter is to do next; nothing while nobody can see the window.
     fn work(&self, state: Option<&State>) -> Option<Work> {
-        let rests = self.rests_at().is_some_and(|at| at <= native::now()) && !self.is_hidden;
+        if self.is_hidden {
+            return None;
+        }
+        let rests = self.rests_at().is_some_and(|at| at <= native::now());
         let sheet = state.and_then(|state| state.sheet.as_ref());
         match sheet {
             _ if state.is_some() && self.comment.is_some() => Some(Work::Save),

@@ -93,12 +93,11 @@ impl Painter {
             }
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let shown = shot.zip(self.picture.as_mut());
-        let is_drawn = shown.is_some();
-        if let Some((shot, picture)) = shown {
-            let output = (&canvas.view, self.frame.in_pixels(place));
-            picture.show(&self.gpu, &mut encoder, output, (shot, report.metered));
-        }
+        let output = (&canvas.view, self.frame.in_pixels(place));
+        let is_drawn = match (shot, &mut self.picture) {
+            (Some(shot), Some(picture)) => picture.show(&self.gpu, &mut encoder, output, (shot, report.metered)),
+            _ => false,
+        };
         self.frame.end(&self.gpu, encoder, canvas, is_drawn);
         // Never more than one frame ahead, so that a slow driver still answers to the latest drag.
         native::finish(&self.gpu);

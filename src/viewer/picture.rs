@@ -34,6 +34,8 @@ pub(super) struct Picture {
     is_checked: bool,
     /// Whether the device has what another picture was drawn with.
     is_foreign: bool,
+    /// Whether anything has been drawn.
+    is_begun: bool,
     /// Whose shadows can be looked up; none where lights or things have moved since.
     remembered: Option<Camera>,
     /// The middle of what is lit, metres.
@@ -64,6 +66,7 @@ impl Picture {
             building: None,
             is_checked: false,
             is_foreign: false,
+            is_begun: false,
             remembered: None,
             center: shot.scene.subject().center(),
         })
@@ -111,20 +114,24 @@ impl Picture {
         Ok(is_further)
     }
 
-    /// Shows what has been drawn.
+    /// Shows what has been drawn; false where nothing has.
     pub fn show(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         output: (&wgpu::TextureView, Rect),
         (shot, metered): (&Shot, Option<f32>),
-    ) {
+    ) -> bool {
+        if !self.is_begun {
+            return false;
+        }
         let exposure = metered.unwrap_or(shot.settings.exposure);
         self.renderer.show(gpu, encoder, output, Showing::Shown { exposure, tone: shot.settings.tone });
         if let Some(material) = shot.outlined {
             let view = View::new(&shot.camera, self.size, Rect::full(self.size));
             self.renderer.outline(gpu, encoder, output, &view, material);
         }
+        true
     }
 
     /// Draws another picture of the scene, of this size and with few samples, and shows it in all of the output.
@@ -198,6 +205,7 @@ impl Picture {
 
     /// Has the device draw a step.
     fn encode(&mut self, gpu: &Gpu, shot: &Shot, exposure: f32, step: &Step) {
+        self.is_begun = true;
         let full = self.size;
         let view = View::new(&shot.camera, full, Rect::full(full));
         let showing = Showing::Shown { exposure, tone: shot.settings.tone };

@@ -221,9 +221,9 @@ impl ApplicationHandler for App {
         match event {
             WindowEvent::CloseRequested => self.close(event_loop),
             // The system may have lost what it had. egui answers by asking for a repaint: heeding that, the window would never rest.
-            WindowEvent::RedrawRequested => open.screen.lose(),
+            WindowEvent::RedrawRequested => open.expose(),
             WindowEvent::Resized(_) | WindowEvent::Occluded(false) => {
-                open.screen.lose();
+                open.expose();
                 open.wake_in(Duration::ZERO);
             }
             _ if response.repaint => when.into_iter().for_each(|when| open.wake(when)),

@@ -1,4 +1,5 @@
 //! On a device.
 
 mod outline;
+mod reprojection;
 mod traversal;
