@@ -246,8 +246,8 @@ impl Open {
                 let size = self.screen.pixels_per_point * sheet_view::image_size(self.screen.picture);
                 sheet.missing().map(|index| Work::Tile(index, [size.x as u32, size.y as u32].map(|side| side.max(1))))
             }
-            None if self.screen.is_stale() || rests || self.announced => Some(Work::Frame),
-            None => None,
+            None if rests || self.announced || self.untold.max(self.screen.change) > Change::None => Some(Work::Frame),
+            None => self.screen.is_stale().then_some(Work::Present),
         }
     }
 

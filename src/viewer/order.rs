@@ -46,9 +46,9 @@ impl Drop for Textures {
 /// What is to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// The window. Where its picture is unfinished, more of that.
+    /// The window, and more of its picture where that is unfinished.
     Frame,
-    /// The window, and no more of its picture.
+    /// The window with its picture as it is.
     Present,
     /// The picture as it is shown, to be kept.
     Save,

@@ -51,6 +51,9 @@ impl Painter {
             Work::Save => report.saved = Some(self.save(&shot, place)),
             Work::Tile(index, size) => self.tile(&shot, index, size, &mut report)?,
         }
+        if let Some(picture) = &self.picture {
+            picture.tell(&shot, &mut report);
+        }
         Ok(report)
     }
 

@@ -93,13 +93,15 @@ impl Picture {
         (lacks && !self.resting_after(shot).is_finished()).then_some("compiling shaders")
     }
 
-    /// Draws the next step, if there is one, and waits for the device. Says of it in `report` what there is to say. Returns whether
-    /// there is more to show than before.
+    /// Draws the next step, if there is one, and waits for the device. Returns whether there is more to show than before.
     pub fn advance(&mut self, gpu: &Gpu, shot: &Shot, report: &mut Report) -> Result<bool, RenderError> {
         self.expose(gpu, shot, report)?;
         let exposure = report.metered.unwrap_or(shot.settings.exposure);
-        let is_ready = self.build_shadows(gpu, shot);
-        let is_further = is_ready && self.draw(gpu, shot, exposure, report);
+        Ok(self.build_shadows(gpu, shot) && self.draw(gpu, shot, exposure, report))
+    }
+
+    /// Says how things stand.
+    pub fn tell(&self, shot: &Shot, report: &mut Report) {
         report.samples = self.has_shadows(shot).then(|| {
             let samples = self.renderer.samples();
             [samples, self.resting.until(samples).max(samples)]
@@ -111,7 +113,6 @@ impl Picture {
             false if self.resting.is_coarse() => Left::Rest,
             false => Left::More,
         };
-        Ok(is_further)
     }
 
     /// Shows what has been drawn; false where nothing has.
