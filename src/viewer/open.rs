@@ -23,6 +23,8 @@ use crate::table::SheenTable;
 const SETTLED: Duration = Duration::from_millis(120);
 /// and how long while a button is held: a drag that pauses goes on most often.
 const HELD: Duration = Duration::from_millis(800);
+/// How often the frame time that is shown may change: each time the panel is painted anew.
+const TIMED: Duration = Duration::from_secs(1);
 /// How often is looked whether something that is built is there.
 const BUILDING: Duration = Duration::from_millis(50);
 
@@ -47,6 +49,8 @@ pub(super) struct Open {
     left: Left,
     /// When the picture changed last.
     moved: Instant,
+    /// When the frame time was told last.
+    timed: Instant,
     is_hidden: bool,
     /// The comment of a picture that is to be kept.
     comment: Option<String>,
@@ -90,6 +94,7 @@ impl Open {
             announced: false,
             left: Left::Nothing,
             moved: now,
+            timed: now,
             is_hidden: false,
             comment: None,
             untold: Change::None,
@@ -145,8 +150,7 @@ impl Open {
     /// Takes in what the painter has told, if it has; whether there is something new to show of it.
     pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
         let Some(report) = self.report()? else { return Ok(false) };
-        let said =
-            |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.notices.len());
+        let said = |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.frame_time);
         let before = said(state);
         (self.announced, state.doing) = (report.about_to.is_some(), report.about_to);
         if report.about_to.is_some() {
@@ -156,7 +160,9 @@ impl Open {
         self.left = report.left;
         (state.samples, state.notice) = (report.samples, report.notice);
         state.metered = report.metered.or(state.metered);
-        state.frame_time = report.frame_time.or(state.frame_time);
+        if report.frame_time.is_some() && self.timed.elapsed() > TIMED {
+            (state.frame_time, self.timed) = (report.frame_time, native::now());
+        }
         if let Some((index, id)) = report.tile {
             self.tiles.push(id);
             if let Some(sheet) = &mut state.sheet {
@@ -167,9 +173,10 @@ impl Open {
         if let Some(advice) = report.advice {
             state.notices.push(advice.clone());
             state.say(advice);
+            return Ok(true);
         }
-        let saved = report.saved.zip(self.comment.take());
-        if let Some((saved, comment)) = saved {
+        if let Some(saved) = report.saved {
+            let comment = self.comment.take().unwrap_or_default();
             state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
             return Ok(true);
         }

@@ -12,6 +12,7 @@ use winit::monitor::MonitorHandle;
 use winit::window::{Fullscreen, Window, WindowId};
 
 use super::ViewerError;
+use super::change::Change;
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
 use super::native::{self, Instant};
@@ -86,9 +87,9 @@ impl App {
         Ok(())
     }
 
-    /// Lets egui see the events so far and keeps what they lead to.
-    fn pass(&mut self) {
-        let Some(open) = &mut self.open else { return };
+    /// Lets egui see the events so far and keeps what they lead to; whether they have changed something.
+    fn pass(&mut self) -> bool {
+        let Some(open) = &mut self.open else { return false };
         let input = open.egui.take_egui_input(&open.window);
         let context = open.egui.egui_ctx().clone();
         let mut layout = Layout::default();
@@ -127,6 +128,7 @@ impl App {
             }
             open.wake_in(Duration::ZERO);
         }
+        layout.change > Change::None
     }
 
     /// What is due by now: the scene, what the painter has to tell, a pass, its next order.
@@ -143,7 +145,9 @@ impl App {
             (None, _) => false,
         };
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
-        if told || is_eager || self.open.as_ref().is_some_and(Open::is_due) {
+        let is_due = told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
+        if is_due && self.pass() {
+            // What stands above the control that was touched has been laid out with the value before.
             self.pass();
         }
         if let Some(open) = &mut self.open {
