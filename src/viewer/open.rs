@@ -67,7 +67,6 @@ impl Open {
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let context = egui::Context::default();
         theme::apply(&context);
-        context.set_zoom_factor(window_size::zoom(window.inner_size().to_logical(window.scale_factor())));
         let egui = egui_winit::State::new(
             context.clone(),
             ViewportId::ROOT,
@@ -81,7 +80,7 @@ impl Open {
         // Where the loop has ended nobody is left to be woken.
         let painter = Worker::start(move |order| painter.obey(order), move || _ = wake.send_event(()));
         let now = native::now();
-        Ok(Self {
+        let open = Self {
             window,
             egui,
             screen: Screen::new(),
@@ -100,7 +99,15 @@ impl Open {
             untold: Change::None,
             tiles: Vec::new(),
             is_eager: false,
-        })
+        };
+        open.fit();
+        Ok(open)
+    }
+
+    /// Makes the user interface of the size that finds room in the window.
+    pub fn fit(&self) {
+        let size = self.window.inner_size().to_logical(self.window.scale_factor());
+        self.egui.egui_ctx().set_zoom_factor(window_size::zoom(size));
     }
 
     /// The next pass comes at this time, or when it was due before, if that is earlier.

@@ -69,7 +69,7 @@ impl Painter {
         let picture = match &mut self.picture {
             Some(picture) => picture,
             None if !announced => {
-                report.about_to = Some("taking the scene to the device");
+                report.about_to = Some("preparing the scene");
                 return Ok(());
             }
             None => {

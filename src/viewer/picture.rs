@@ -8,7 +8,7 @@ use super::native::{self, Task};
 use super::order::{Left, Report, Shot};
 use super::resting::{Can, Resting, Step};
 use crate::picture::Blank;
-use crate::renderer::{Built, Format, Gpu, Rect, RenderError, Renderer, Sample, Showing, View};
+use crate::renderer::{Built, Format, Gpu, Rect, RenderError, Renderer, SAMPLES, Sample, Showing, View};
 use crate::scene::{Camera, Settings};
 use crate::table::SheenTable;
 
@@ -135,7 +135,8 @@ impl Picture {
         true
     }
 
-    /// Draws another picture of the scene, of this size and with few samples, and shows it in all of the output.
+    /// Draws another picture of the scene, of this size and with as many samples as it takes to look finished, and shows it in all of
+    /// the output.
     pub fn aside(
         &mut self,
         gpu: &Gpu,
@@ -146,8 +147,14 @@ impl Picture {
         self.renderer.update(gpu, &shot.drawn())?;
         let view = View::new(&shot.camera, size, Rect::full(size));
         let showing = Showing::Shown { exposure: shot.settings.exposure, tone: shot.settings.tone };
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer.draw(gpu, &mut encoder, size, (&view, &shot.settings, showing), &SAMPLE);
+        let begin = || gpu.device.create_command_encoder(&Default::default());
+        let mut encoder = begin();
+        for index in 0..if self.has_shadows(shot) { SAMPLES } else { 1 } {
+            let sample = Sample { index, ..SAMPLE };
+            self.renderer.draw(gpu, &mut encoder, size, (&view, &shot.settings, showing), &sample);
+            // What is written for a sample counts for all that is submitted with it.
+            gpu.queue.submit([std::mem::replace(&mut encoder, begin()).finish()]);
+        }
         self.renderer.show(gpu, &mut encoder, (output, Rect::full(size)), showing);
         gpu.queue.submit([encoder.finish()]);
         native::finish(gpu);
