@@ -49,6 +49,8 @@ pub(super) struct Open {
     left: Left,
     /// When the picture changed last.
     moved: Instant,
+    /// When the painter reported last.
+    heard: Instant,
     /// When the frame time was told last.
     timed: Instant,
     is_hidden: bool,
@@ -93,6 +95,7 @@ impl Open {
             announced: false,
             left: Left::Nothing,
             moved: now,
+            heard: now,
             timed: now,
             is_hidden: false,
             comment: None,
@@ -135,9 +138,10 @@ impl Open {
     }
 
     /// When something is to be looked at again: `slow` after an order was given, it is told of.
-    pub fn next(&self, slow: Duration) -> Option<Instant> {
+    pub fn next(&self, slow: Duration, state: Option<&State>) -> Option<Instant> {
         let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
-        let rested = if self.busy.is_none() && !self.is_hidden { self.rests_at() } else { None };
+        let waits = self.busy.is_some() || self.is_hidden || state.is_some_and(|state| state.sheet.is_some());
+        let rested = if waits { None } else { self.rests_at() };
         [self.due, told, rested].into_iter().flatten().min()
     }
 
@@ -146,7 +150,7 @@ impl Open {
         match self.left {
             Left::Nothing => None,
             Left::More => Some(self.moved),
-            Left::Built => Some(self.passed + BUILDING),
+            Left::Built => Some(self.heard + BUILDING),
             Left::Rest => {
                 let is_held = self.egui.egui_ctx().input(|input| input.pointer.any_down());
                 Some(self.moved + if is_held { HELD } else { SETTLED })
@@ -198,7 +202,7 @@ impl Open {
     fn report(&mut self) -> Result<Option<Report>, ViewerError> {
         let gone = |Gone| ViewerError::Window("its painter has failed".to_owned());
         let Some(report) = self.painter.report().map_err(gone)?.transpose()? else { return Ok(None) };
-        self.busy = None;
+        (self.busy, self.heard) = (None, native::now());
         self.is_hidden = report.unseen == Some(Unseen::Hidden);
         if report.unseen.is_some() {
             self.screen.lose();

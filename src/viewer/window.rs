@@ -243,7 +243,7 @@ impl ApplicationHandler for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let done = self.follow();
         self.heed(event_loop, done);
-        let due = self.open.as_ref().and_then(|open| open.next(SLOW));
+        let due = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
         event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }
