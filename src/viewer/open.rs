@@ -140,7 +140,8 @@ impl Open {
     /// When something is to be looked at again: `slow` after an order was given, it is told of.
     pub fn next(&self, slow: Duration, state: Option<&State>) -> Option<Instant> {
         let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
-        let waits = self.busy.is_some() || self.is_hidden || state.is_some_and(|state| state.sheet.is_some());
+        let is_covered = state.is_some_and(|state| state.sheet.is_some());
+        let waits = self.busy.is_some() || self.is_hidden || self.is_minimised() || is_covered;
         let rested = if waits { None } else { self.rests_at() };
         [self.due, told, rested].into_iter().flatten().min()
     }
@@ -210,11 +211,15 @@ impl Open {
         Ok(Some(report))
     }
 
+    fn is_minimised(&self) -> bool {
+        let size = self.window.inner_size();
+        size.width == 0 || size.height == 0
+    }
+
     /// Gives the painter its next order, if it is free and there is something to do.
     pub fn give(&mut self, state: Option<&State>) {
-        let size = self.window.inner_size();
         // Minimised: what has changed is drawn when the window comes back.
-        if self.busy.is_some() || size.width == 0 || size.height == 0 {
+        if self.busy.is_some() || self.is_minimised() {
             return;
         }
         let Some(work) = self.work(state) else { return };
@@ -225,7 +230,7 @@ impl Open {
         self.untold = self.untold.max(self.screen.change);
         let change = if work == Work::Frame { std::mem::take(&mut self.untold) } else { Change::None };
         let order = Order {
-            size: size.into(),
+            size: self.window.inner_size().into(),
             place: self.screen.picture,
             pixels_per_point: self.screen.pixels_per_point,
             shapes: self.screen.presented(),
