@@ -19,6 +19,12 @@ use super::{sheet_view, theme, window_size};
 use crate::renderer::{Gpu, device};
 use crate::table::SheenTable;
 
+/// The least time between two passes for a pointer that only hovers: a mouse may tell of its moves a thousand times a
+/// second, a display shows sixty pictures.
+const PACE: Duration = Duration::from_millis(16);
+/// How long egui waits for its next pass after one that has led to nothing. It asks for two more after all input, so that
+/// what lags behind can settle, and no frame makes it wait.
+pub(super) const REST: Duration = Duration::from_millis(100);
 /// How long nothing moves before what is shown coarsely is drawn in all its pixels,
 const SETTLED: Duration = Duration::from_millis(120);
 /// and how long while a button is held: a drag that pauses goes on most often.
@@ -121,6 +127,19 @@ impl Open {
     /// The same after a delay.
     pub fn wake_in(&mut self, delay: Duration) {
         native::after(delay).into_iter().for_each(|at| self.wake(at));
+    }
+
+    /// The pointer has moved: egui hears of it when a frame may come of that. While one is drawn, that is when this is done; else at
+    /// once, or a little later where nothing is dragged.
+    pub fn follow_pointer(&mut self) {
+        let is_held = self.egui.egui_ctx().input(|input| input.pointer.any_down());
+        let pace = match (self.busy, is_held) {
+            (Some(_), _) => REST,
+            (None, true) => Duration::ZERO,
+            (None, false) => PACE,
+        };
+        self.is_eager |= self.busy.is_some();
+        self.wake(self.passed + pace);
     }
 
     pub fn is_due(&self) -> bool {

@@ -15,20 +15,12 @@ use super::ViewerError;
 use super::change::Change;
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
-use super::native::{self, Instant};
-use super::open::Open;
+use super::native;
+use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
 use super::window_size;
 use crate::table::SheenTable;
-
-/// The least time between two passes for a pointer that only hovers: a mouse may tell of its moves a thousand times a
-/// second, a display shows sixty pictures.
-const PACE: Duration = Duration::from_millis(16);
-
-/// How long egui waits for its next pass after one that has led to nothing. It asks for two more after all input, so that
-/// what lags behind can settle, and no frame makes it wait.
-const REST: Duration = Duration::from_millis(100);
 
 /// How long a scene may take to load before a window is opened that says so: one that is there by then, or that cannot be
 /// loaded, is not announced.
@@ -136,16 +128,16 @@ impl App {
         if self.open.is_none() {
             return Ok(());
         }
-        if self.loading.is_some() {
-            self.receive_scene(Duration::ZERO)?;
-        }
+        let was_loading = self.loading.is_some();
+        self.receive_scene(Duration::ZERO)?;
+        let is_loaded = was_loading && self.loading.is_none();
         let told = match (&mut self.open, &mut self.state) {
             (Some(open), Some(state)) => open.hear(state)?,
             (Some(open), None) => open.hear_nothing()?,
             (None, _) => false,
         };
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
-        let is_due = told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
+        let is_due = is_loaded || told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
         if is_due && self.pass() {
             // What stands above the control that was touched has been laid out with the value before.
             self.pass();
@@ -167,14 +159,6 @@ impl App {
             open.titled = doing;
             open.window.set_title(&title);
         }
-    }
-
-    /// When an event is passed on to egui.
-    fn when_to_tell(&self, event: &WindowEvent) -> Option<Instant> {
-        let open = self.open.as_ref()?;
-        let is_move = matches!(event, WindowEvent::CursorMoved { .. });
-        let is_hover = is_move && !open.egui.egui_ctx().input(|input| input.pointer.any_down());
-        Some(if is_hover { open.passed + PACE } else { native::now() })
     }
 
     /// Ends the program where something has failed.
@@ -220,7 +204,6 @@ impl ApplicationHandler for App {
         if is_press {
             self.pass();
         }
-        let when = self.when_to_tell(&event);
         let Some(open) = &mut self.open else { return };
         match event {
             WindowEvent::CloseRequested => self.close(event_loop),
@@ -231,7 +214,8 @@ impl ApplicationHandler for App {
                 open.expose();
                 open.wake_in(Duration::ZERO);
             }
-            _ if response.repaint => when.into_iter().for_each(|when| open.wake(when)),
+            WindowEvent::CursorMoved { .. } if response.repaint => open.follow_pointer(),
+            _ if response.repaint => open.wake_in(Duration::ZERO),
             _ => {}
         }
     }
