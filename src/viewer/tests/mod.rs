@@ -19,8 +19,8 @@ use super::layout::{self, Layout};
 use super::request::Request;
 use super::state::State;
 use crate::scene::{
-    AlphaMode, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection, Scene,
-    Sheen, TextureSlot, TextureUse,
+    AlphaMode, Bounds, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection,
+    Scene, Sheen, TextureSlot, TextureUse,
 };
 
 /// The user interface of a state, and what it was laid out as last.
@@ -154,9 +154,9 @@ impl Window {
             let labels = window.nodes.iter().filter(|node| node.role() == Role::Label);
             labels.filter_map(|node| node.value().or(node.label()).map(str::to_owned)).collect()
         };
-        // The tooltip of the last place goes first.
+        // The tooltip of the last place goes first, and none comes up right after a click.
         self.pass(vec![Event::PointerMoved(pos2(300.0, 700.0))]);
-        self.pass(vec![]);
+        self.wait(1.0);
         let before = texts(self);
         self.pass(vec![Event::PointerMoved(at)]);
         self.rest(4);

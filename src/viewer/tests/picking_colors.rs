@@ -34,11 +34,18 @@ fn shown(window: &Window) -> (String, Vec3) {
 #[test]
 fn all_of_it_says_what_it_is_and_egui_adds_nothing() {
     let mut window = open();
-    let layer = |place: Rect| window.context.layer_id_at(place.center()).unwrap();
-    let popup = layer(window.place(Role::Slider, "hue"));
-    let roles = [Role::Button, Role::Slider, Role::SpinButton, Role::TextInput];
-    let all = roles.into_iter().flat_map(|role| window.places(role));
-    let places: Vec<Rect> = all.filter(|place| layer(*place) == popup).collect();
+    let controls = |window: &Window| -> Vec<Rect> {
+        let roles = [Role::Button, Role::CheckBox, Role::Slider, Role::SpinButton, Role::TextInput];
+        roles.into_iter().flat_map(|role| window.places(role)).collect()
+    };
+    let mut places = controls(&window);
+    egui::Popup::close_all(&window.context);
+    window.rest(2);
+    let beside = controls(&window);
+    places.retain(|place| !beside.contains(place));
+    let swatch = window.in_row("sheen colour", Role::ColorWell)[0].center();
+    window.click(swatch);
+    window.rest(20);
     assert_eq!(places, FIELDS.map(|name| window.place(Role::Slider, name)));
     for (place, wanted) in places.into_iter().zip(["Saturation", "hue"]) {
         let text = window.hover_text(place.center()).unwrap_or_default();
@@ -61,7 +68,7 @@ fn numbers_follow_while_it_is_dragged() {
             pressed,
             modifiers: Modifiers::NONE,
         };
-        let at = |step: usize| field.left_bottom() + vec2(0.1 + 0.08 * step as f32, -0.5) * field.size();
+        let at = |step: usize| field.left_bottom() + vec2(0.1 + 0.08 * step as f32, -0.43) * field.size();
         window.pass(vec![Event::PointerMoved(at(0))]);
         window.pass(vec![press(at(0), true)]);
         for step in 1..10 {
@@ -112,6 +119,9 @@ fn places_are_colours() {
 #[test]
 fn arrow_keys_pick_and_the_view_stays() {
     let mut window = open();
+    // A grey is the same whatever its hue.
+    let square = window.place(Role::Slider, FIELDS[0]);
+    window.click(square.center());
     for (name, keys) in [
         (FIELDS[0], vec![Key::ArrowRight, Key::ArrowUp, Key::ArrowLeft, Key::ArrowDown]),
         (FIELDS[1], vec![Key::ArrowRight, Key::ArrowLeft]),
