@@ -76,6 +76,10 @@ fn numbers_follow_while_it_is_dragged() {
             assert_eq!(window.pass(vec![Event::PointerMoved(at(step))]), Change::Materials);
             // A popup is laid out after what it belongs to.
             window.pass(vec![]);
+            // It covers none of them.
+            let boxes =
+                [window.in_row("sheen colour", Role::SpinButton), window.below("sheen colour", Role::SpinButton)];
+            assert!(boxes.iter().flatten().count() == 4 && boxes.iter().flatten().all(|at| !at.intersects(field)));
             let (hex, linear) = shown(&window);
             assert_ne!((&hex, linear), (&before.0, before.1), "{name}");
             let color = color(&window);

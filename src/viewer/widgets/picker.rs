@@ -4,7 +4,7 @@
 use egui::accesskit::Role;
 use egui::ecolor::HsvaGamma;
 use egui::{
-    Color32, EventFilter, Key, Mesh, Popup, PopupCloseBehavior, Response, Rgba, Sense, StrokeKind, Ui, Vec2,
+    Color32, EventFilter, Key, Mesh, Popup, PopupCloseBehavior, RectAlign, Response, Rgba, Sense, StrokeKind, Ui, Vec2,
     WidgetInfo, remap_clamp, vec2,
 };
 use glam::Vec3;
@@ -35,7 +35,8 @@ pub fn color_button(ui: &mut Ui, color: &mut Vec3) -> Response {
     // Framed, for the colour may be the panel's own.
     ui.painter().rect(rect, visuals.corner_radius, shown, (1.0, visuals.bg_fill), StrokeKind::Inside);
     let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    popup.show(|ui| {
+    // The numbers beside the swatch and below it stay in sight.
+    popup.align(RectAlign::LEFT_START).show(|ui| {
         if let Some(picked) = picker(ui, *color) {
             *color = picked;
             response.mark_changed();
