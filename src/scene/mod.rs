@@ -40,7 +40,7 @@ mod texture;
 
 use std::path::PathBuf;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
@@ -98,21 +98,30 @@ impl Scene {
 
     /// A box in the world around all instances. It is not the smallest: around rotated meshes there is room.
     pub fn bounds(&self) -> Bounds {
-        self.bounds_of(|_| true)
+        self.bounds_of(|_, _| true)
     }
 
     /// A box around what is lit: all instances that are no lamps, or all of them where everything is.
     pub fn subject(&self) -> Bounds {
-        let lit = self.bounds_of(|material| !material.is_lamp());
+        let lit = self.bounds_of(|material, _| !material.is_lamp());
         if lit == Bounds::EMPTY { self.bounds() } else { lit }
     }
 
-    fn bounds_of(&self, counts: impl Fn(&Material) -> bool) -> Bounds {
+    /// A box around what an eye in this place looks at: what is lit, but for things whose boxes hold the eye, the sweep of a studio, a
+    /// room, a sky; with them where nothing else is. A floor that is flat stays.
+    pub fn foreground(&self, eye: Vec3) -> Bounds {
+        let before = self.bounds_of(|material, bounds| !material.is_lamp() && bounds.with(eye) != *bounds);
+        if before == Bounds::EMPTY { self.subject() } else { before }
+    }
+
+    /// A box around the instances of which this holds, by their material and their box.
+    fn bounds_of(&self, counts: impl Fn(&Material, &Bounds) -> bool) -> Bounds {
         let meshes: Vec<Bounds> = self.meshes.iter().map(|mesh| Bounds::of_points(&mesh.positions)).collect();
-        let counted =
-            self.instances.iter().filter(|instance| counts(&self.materials[self.meshes[instance.mesh].material]));
-        counted.fold(Bounds::EMPTY, |bounds, instance| {
-            bounds.union(meshes[instance.mesh].transformed(instance.world_from_mesh))
-        })
+        let placed = self.instances.iter().map(|instance| {
+            let material = &self.materials[self.meshes[instance.mesh].material];
+            (material, meshes[instance.mesh].transformed(instance.world_from_mesh))
+        });
+        let counted = placed.filter(|(material, bounds)| counts(material, bounds));
+        counted.fold(Bounds::EMPTY, |sum, (_, bounds)| sum.union(bounds))
     }
 }

@@ -3,6 +3,7 @@
 use egui::{Popup, Rect, Ui};
 use glam::Vec2;
 
+use super::history::is_settled;
 use super::request::Request;
 use super::state::State;
 use crate::scene::CameraEdit;
@@ -48,13 +49,13 @@ impl Command {
             Self::TurnBy([right, down]) => edit_view(state, |orbit| orbit.turn(Vec2::new(right, down))),
             Self::LookFrom([azimuth, elevation]) => edit_view(state, |orbit| orbit.look_from(azimuth, elevation)),
             Self::Frame => {
-                let bounds = state.clicked_bounds().unwrap_or_else(|| state.scene.subject());
+                let bounds = state.clicked_bounds().unwrap_or_else(|| state.foreground());
                 edit_view(state, |orbit| orbit.frame(&bounds, picture.aspect_ratio()));
             }
             Self::Home => state.edits.camera = None,
             // Not in the midst of a change.
-            Self::Undo if state.is_settled(ui) => state.undo(),
-            Self::Redo if state.is_settled(ui) => state.redo(),
+            Self::Undo if is_settled(ui) => state.undo(),
+            Self::Redo if is_settled(ui) => state.redo(),
             Self::Undo | Self::Redo => {}
             Self::Screenshot => return Some(Request::Screenshot),
             Self::SaveState => return Some(Request::SaveState),

@@ -55,7 +55,7 @@ pub const ROWS: &[Row] = &[
     row(Input::Drag(Modifiers::ALT, PointerButton::Secondary), Command::Zoom, "zoom to the pointer"),
     row(Input::Click, Command::Pick, "show the material in the panel"),
     row(Input::DoubleClick, Command::Centre, "centre on what is there"),
-    row(press(Key::F), Command::Frame, "frame what was clicked, or all"),
+    row(press(Key::F), Command::Frame, "frame what was clicked, or all but the backdrop"),
     row(press(Key::Num1), Command::LookFrom([0.0, 0.0]), "from the front"),
     row(press(Key::Num3), Command::LookFrom([FRAC_PI_2, 0.0]), "from the side"),
     row(press(Key::Num7), Command::LookFrom([0.0, FRAC_PI_2]), "from above"),

@@ -24,6 +24,8 @@ pub fn show(ui: &mut Ui, picture: Rect, state: &mut State) {
         *sheet = now;
     }
     ui.painter().rect_filled(picture, 0.0, ui.visuals().extreme_bg_color);
+    // Nothing that is done between its pictures turns what lies below.
+    ui.interact(picture, ui.scope_id().with("sheet"), Sense::click_and_drag());
     let current = state.edits.of_material(material).alpha;
     let mut taken = None;
     for index in 0..Sheet::ALPHAS.len() {
@@ -44,7 +46,7 @@ pub fn show(ui: &mut Ui, picture: Rect, state: &mut State) {
 fn cell(ui: &Ui, picture: Rect, sheet: &Sheet, index: usize, current: Option<f32>) -> bool {
     let [place, image] = image(picture, index);
     let caption = format!("alpha {}", Sheet::ALPHAS[index]);
-    // Drags, too, so that none of them turns what lies below.
+    // Drags, too, for the same reason.
     let response = ui.interact(place, ui.scope_id().with(("sheet", index)), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &caption));
     let (visuals, painter) = (ui.style().interact(&response), ui.painter().with_clip_rect(place.expand(GAP)));

@@ -13,7 +13,7 @@ use super::pick;
 use super::sheet::Sheet;
 use super::sweep::Sweep;
 use crate::picture::Exposure;
-use crate::scene::{Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
+use crate::scene::{Bounds, Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
 
 /// The scene as it was loaded, and what the user changes in it.
 pub struct State {
@@ -146,6 +146,11 @@ impl State {
         }
     }
 
+    /// The box of what is framed where nothing was clicked: the first camera tells what is seen from the midst of it.
+    pub fn foreground(&self) -> Bounds {
+        self.scene.foreground(self.scene.cameras[0].world_from_camera.w_axis.truncate())
+    }
+
     /// The scene's diagonal, metres.
     pub fn size(&self) -> f32 {
         self.size
@@ -161,8 +166,21 @@ impl State {
         self.sweep.is_none() && history::is_settled(context)
     }
 
-    /// Takes back the last change; the view stays.
+    /// Whether there is a change that can be taken back: a sweep is one, while it lasts.
+    pub fn can_undo(&self) -> bool {
+        self.sweep.is_some() || self.history.can_undo()
+    }
+
+    /// Whether something that was taken back can be done again: a sweep is a new change, after which nothing can.
+    pub fn can_redo(&self) -> bool {
+        self.sweep.is_none() && self.history.can_redo()
+    }
+
+    /// Takes back the last change, a sweep as a whole; the view stays.
     pub fn undo(&mut self) {
+        if self.sweep.take().is_some() {
+            self.history.keep(&self.edits, self.metered);
+        }
         if let Some(step) = self.history.undo().cloned() {
             self.go_to(step);
         }
@@ -170,7 +188,9 @@ impl State {
 
     /// Does again what was taken back last; the view stays.
     pub fn redo(&mut self) {
-        if let Some(step) = self.history.redo().cloned() {
+        if self.can_redo()
+            && let Some(step) = self.history.redo().cloned()
+        {
             self.go_to(step);
         }
     }

@@ -7,7 +7,7 @@ use glam::{Affine2, Mat4, Quat, Vec3};
 use super::shapes::{cube, grid, scene, sphere};
 use crate::scene::notices::Notices;
 use crate::scene::{
-    Camera, Drawn, Edits, Light, LightEdits, Projection, Scene, TextureSlot, TextureUse, framing, lights, rig,
+    Camera, Drawn, Edits, Instance, Light, LightEdits, Projection, Scene, TextureSlot, TextureUse, framing, lights, rig,
 };
 
 /// A mesh in all kinds of sizes, with a camera and lights.
@@ -43,6 +43,26 @@ fn seen(camera: &Camera, aspect: f32, point: Vec3) -> Vec3 {
         Projection::Orthographic { ymag, .. } => ymag,
     };
     Vec3::new(point.x / (aspect * half_height), point.y / half_height, -point.z)
+}
+
+#[test]
+fn what_the_eye_stands_in_is_no_foreground() {
+    let eye = |scene: &Scene| scene.cameras[0].world_from_camera.w_axis.truncate();
+    for mut scene in sets() {
+        assert_eq!(scene.foreground(eye(&scene)), scene.subject());
+        let subject = scene.subject();
+        // A room around all of it and the eye.
+        let half = 2.0 * eye(&scene).distance(subject.center());
+        let room = Mat4::from_translation(subject.center()) * Mat4::from_scale(Vec3::splat(half));
+        scene.instances.push(Instance { name: "room".to_owned(), mesh: 0, world_from_mesh: room });
+        assert_eq!(scene.foreground(eye(&scene)), subject);
+        assert_ne!(scene.subject(), subject);
+        // From beside it, it is one thing of two; where there is nothing else, it is what is looked at.
+        assert_eq!(scene.foreground(subject.center() + 4.0 * half), scene.subject());
+        scene.instances.remove(0);
+        scene.lights.clear();
+        assert_eq!(scene.foreground(eye(&scene)), scene.subject());
+    }
 }
 
 #[test]

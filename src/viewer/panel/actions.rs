@@ -2,6 +2,7 @@
 
 use egui::{Button, Label, ScrollArea, Ui};
 
+use super::super::history::is_settled;
 use super::super::request::Request;
 use super::super::state::State;
 use super::super::widgets::{About, button};
@@ -18,16 +19,16 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     ui.horizontal(|ui| {
         let undo = About::unless(
             "Takes back the last change; the view stays (Ctrl-Z).",
-            (!state.history.can_undo()).then_some("There is nothing to undo."),
+            (!state.can_undo()).then_some("There is nothing to undo."),
         );
-        if button(ui, undo, Button::new("Undo")) && state.is_settled(ui) {
+        if button(ui, undo, Button::new("Undo")) && is_settled(ui) {
             state.undo();
         }
         let redo = About::unless(
             "Does again what was undone last (Ctrl-Shift-Z).",
-            (!state.history.can_redo()).then_some("There is nothing to redo."),
+            (!state.can_redo()).then_some("There is nothing to redo."),
         );
-        if button(ui, redo, Button::new("Redo")) && state.is_settled(ui) {
+        if button(ui, redo, Button::new("Redo")) && is_settled(ui) {
             state.redo();
         }
         let about = "Puts scene, view and settings back as they were loaded.";
@@ -71,7 +72,7 @@ fn messages(ui: &mut Ui, messages: &mut Vec<String>) {
     }
 }
 
-/// How long a frame takes, how fine the picture is by now, and what the program is busy with.
+/// What the program is busy with, how long a frame takes, and how fine the picture is by now.
 fn status(state: &State) -> String {
     let time = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
     let samples = state.samples.map(|[samples, of]| format!("{samples} of {of} samples"));

@@ -106,7 +106,9 @@ pub fn show_buttons(ui: &mut Ui, state: &mut State, alpha: f32, why_not: Option<
         if button(ui, About::unless(about, why_not), Button::new(title).selected(is_sweeping)) {
             let set = state.edits.materials.get(&state.material).and_then(|own| own.alpha);
             let now = ui.input(|input| input.time);
-            state.sweep = if is_sweeping { None } else { Some(Sweep::new(state.material, alpha, set, now)) };
+            state.sweep = (!is_sweeping).then(|| Sweep::new(state.material, alpha, set, now));
+            // It would hide what is swept.
+            state.sheet = None;
             ui.ctx().request_repaint();
         }
         let about = "Shows the view at nine alphas side by side, to pick one.";

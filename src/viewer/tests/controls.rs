@@ -1,7 +1,7 @@
 //! What all controls of the panel have in common.
 
 use super::*;
-use egui::{Id, LayerId, Order};
+use egui::Id;
 
 /// Roles of what can be touched.
 const TOUCHED: [Role; 8] = [
@@ -33,39 +33,9 @@ fn controls(window: &Window) -> Vec<(String, Rect, bool)> {
     all.collect()
 }
 
-/// What the tooltip says that comes up where the pointer rests on a place.
-fn hover_text(window: &mut Window, at: Pos2) -> Option<String> {
-    let texts = |window: &Window| -> Vec<String> {
-        let labels = window.nodes.iter().filter(|node| node.role() == Role::Label);
-        labels.filter_map(|node| node.value().or(node.label()).map(str::to_owned)).collect()
-    };
-    // The tooltip of the last place goes first.
-    window.pass(vec![Event::PointerMoved(pos2(300.0, 700.0))]);
-    window.pass(vec![]);
-    let before = texts(window);
-    window.pass(vec![Event::PointerMoved(at)]);
-    for _ in 0..4 {
-        window.pass(vec![]);
-    }
-    let is_shown = window.context.memory(|memory| {
-        let layers: Vec<LayerId> = memory.areas().visible_layer_ids().into_iter().collect();
-        layers.iter().any(|layer| layer.order == Order::Tooltip)
-    });
-    let found = texts(window).into_iter().find(|text| !before.contains(text));
-    is_shown.then_some(found).flatten()
-}
-
-fn at_once(window: &Window) {
-    window.context.all_styles_mut(|style| {
-        style.interaction.tooltip_delay = 0.0;
-        style.interaction.show_tooltips_only_when_still = false;
-    });
-}
-
 #[test]
 fn every_control_says_what_it_is_for() {
     let mut window = full();
-    at_once(&window);
     window.state.say("a message".to_owned());
     for _ in 0..3 {
         window.pass(vec![]);
@@ -73,11 +43,11 @@ fn every_control_says_what_it_is_for() {
     let found = controls(&window);
     assert!(found.len() > 55, "{} controls", found.len());
     for (name, place, _) in found {
-        let text = hover_text(&mut window, place.center());
+        let text = window.hover_text(place.center());
         assert!(text.as_ref().is_some_and(|text| text.len() > 15), "{name} at {place} says {text:?}");
     }
     // The ruler: what is no control says nothing.
-    assert_eq!(hover_text(&mut window, pos2(200.0, 900.0)), None);
+    assert_eq!(window.hover_text(pos2(200.0, 900.0)), None);
 }
 
 #[test]
@@ -87,13 +57,12 @@ fn what_cannot_be_changed_says_why() {
         scene.materials[0].sheen = None;
         scene.materials[0].unlit = is_unlit;
         let mut window = Window::new(scene);
-        at_once(&window);
         window.pass(vec![]);
         let disabled: Vec<_> = controls(&window).into_iter().filter(|(.., is_enabled)| !is_enabled).collect();
         assert!(disabled.len() > 15, "{} controls", disabled.len());
         let mut reasons = 0;
         for (name, place, _) in disabled {
-            let text = hover_text(&mut window, place.center()).unwrap_or_else(|| panic!("{name} says nothing"));
+            let text = window.hover_text(place.center()).unwrap_or_else(|| panic!("{name} says nothing"));
             reasons += usize::from(text.contains(expected));
             let before = window.state.edits.clone();
             window.click(place.center());
@@ -103,15 +72,13 @@ fn what_cannot_be_changed_says_why() {
     }
 }
 
-/// A press and a release with these modifiers, so many times.
+/// So many clicks with these modifiers.
 fn click_with(window: &mut Window, at: Pos2, modifiers: Modifiers, times: usize) {
-    window.pass(vec![Event::PointerMoved(at), Event::ModifiersChanged(modifiers)]);
+    window.modifiers = modifiers;
     for _ in 0..times {
-        for pressed in [true, false] {
-            window.pass(vec![Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers }]);
-        }
+        window.click(at);
     }
-    window.pass(vec![Event::ModifiersChanged(Modifiers::NONE)]);
+    window.modifiers = Modifiers::NONE;
     // No click after these counts as one more of them.
     window.wait(2.0);
 }
@@ -234,7 +201,8 @@ fn a_double_click_puts_sliders_and_swatches_back() {
 fn tab_walks_through_all_and_changes_nothing() {
     let mut window = full();
     let before = window.state.edits.clone();
-    let count = controls(&window).len();
+    // What cannot be used is passed over.
+    let count = controls(&window).into_iter().filter(|(.., is_enabled)| *is_enabled).count();
     let mut seen: Vec<Id> = Vec::new();
     for _ in 0..count + 20 {
         _ = window.press(Key::Tab);

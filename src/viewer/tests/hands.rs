@@ -214,6 +214,31 @@ fn f_frames_what_was_clicked_or_all() {
     bounds(&window, Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 1.0, 0.0));
 }
 
+/// The default scene stands on the sweep of a studio, in which the camera stands, too.
+#[test]
+fn f_frames_what_stands_before_a_backdrop() {
+    let drape = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/drape.glb");
+    let scene = crate::scene::gltf::load(drape.as_ref(), &crate::scene::gltf::Options::default()).unwrap();
+    let cloth = scene.instances.iter().find(|instance| instance.name == "cloth").unwrap().clone();
+    let bounds = Bounds::of_points(&scene.meshes[cloth.mesh].positions).transformed(cloth.world_from_mesh);
+    let mut window = Window::of_size(scene, vec2(1280.0, 720.0));
+    for from in [Key::Home, Key::Num3] {
+        window.press(from);
+        window.press(Key::F);
+        let corners = bounds.corners().map(|corner| seen(&window, corner));
+        let (place, picture) = (Rect::from_points(&corners), window.layout.picture);
+        let filled = place.height() / picture.height();
+        assert!(picture.contains_rect(place) && filled > 0.7, "{place} in {picture}: {filled} of its height");
+        assert!((place.center() - picture.center()).length() < 0.1 * picture.height(), "{place} in {picture}");
+    }
+    // What was clicked is framed, even if it is the backdrop.
+    window.press(Key::Home);
+    window.click(pos2(20.0, 20.0));
+    assert!(window.state.clicked_bounds().is_some());
+    window.press(Key::F);
+    assert!(window.state.orbit().distance > 10.0);
+}
+
 #[test]
 fn the_view_turns_about_what_is_in_its_middle() {
     // A cloth in front of a wall that is far larger.

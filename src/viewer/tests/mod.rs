@@ -1,15 +1,17 @@
 //! The user interface without a window: what presses, drags and keys make of the edits.
 
+mod comparing;
 mod controls;
 mod flight;
 mod hands;
 mod keyboard;
 mod panel;
+mod picking_colors;
 mod sections;
 mod undoing;
 
 use egui::accesskit::{Node, Role};
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, ViewportId, pos2, vec2};
+use egui::{Event, Key, LayerId, Modifiers, Order, PointerButton, Pos2, RawInput, Rect, Vec2, ViewportId, pos2, vec2};
 use glam::{Mat4, Vec3};
 
 use super::change::Change;
@@ -17,8 +19,8 @@ use super::layout::{self, Layout};
 use super::request::Request;
 use super::state::State;
 use crate::scene::{
-    AlphaMode, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection, Scene,
-    Sheen, TextureSlot, TextureUse,
+    AlphaMode, Bounds, Camera, Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, Polygon, Projection,
+    Scene, Sheen, TextureSlot, TextureUse,
 };
 
 /// The user interface of a state, and what it was laid out as last.
@@ -32,14 +34,14 @@ struct Window {
     /// Those that are held.
     modifiers: Modifiers,
     /// Between two passes, seconds.
-    pace: f32,
+    pace: f64,
     /// After how many seconds egui wants the next pass.
     delay: f64,
-    /// Of the next pass, in seconds.
+    /// Of the last pass, in seconds.
     time: f64,
 }
 
-/// Between two passes, in seconds.
+/// Between two passes at first, in seconds.
 const PACE: f64 = 1.0 / 60.0;
 
 impl Window {
@@ -53,9 +55,9 @@ impl Window {
         context.enable_accesskit();
         super::theme::apply(&context);
         let state = State::new("test.glb", scene, Edits::default());
-        let (modifiers, pace) = (Modifiers::NONE, PACE as f32);
-        let layout = Layout::default();
-        let mut window = Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay: 0.0, time: 0.0 };
+        let (modifiers, layout) = (Modifiers::NONE, Layout::default());
+        let (pace, delay, time) = (PACE, 0.0, 0.0);
+        let mut window = Self { context, state, nodes: vec![], layout, size, modifiers, pace, delay, time };
         // egui finds the sizes of things by laying them out.
         for _ in 0..3 {
             window.pass(vec![]);
@@ -69,9 +71,9 @@ impl Window {
             events.insert(0, Event::ModifiersChanged(self.modifiers));
         }
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, self.size));
-        let input =
-            RawInput { screen_rect, events, predicted_dt: self.pace, time: Some(self.time), ..RawInput::default() };
-        self.time += f64::from(self.pace);
+        self.time += self.pace;
+        let (time, predicted_dt) = (Some(self.time), self.pace as f32);
+        let input = RawInput { screen_rect, events, predicted_dt, time, ..RawInput::default() };
         let mut shown = Layout::default();
         let mut output = self.context.run_ui(input, |ui| shown = layout::show(ui, &mut self.state));
         self.delay = output.viewport_output[&ViewportId::ROOT].repaint_delay.as_secs_f64();
@@ -140,6 +142,30 @@ impl Window {
         let bottom = self.place(Role::Label, label).max.y;
         let places = self.places(role).into_iter();
         places.filter(|place| (bottom..bottom + place.height() + 8.0).contains(&place.center().y)).collect()
+    }
+
+    /// What the tooltip says that comes up where the pointer rests on a place.
+    fn hover_text(&mut self, at: Pos2) -> Option<String> {
+        self.context.all_styles_mut(|style| {
+            style.interaction.tooltip_delay = 0.0;
+            style.interaction.show_tooltips_only_when_still = false;
+        });
+        let texts = |window: &Self| -> Vec<String> {
+            let labels = window.nodes.iter().filter(|node| node.role() == Role::Label);
+            labels.filter_map(|node| node.value().or(node.label()).map(str::to_owned)).collect()
+        };
+        // The tooltip of the last place goes first, and none comes up right after a click.
+        self.pass(vec![Event::PointerMoved(pos2(300.0, 700.0))]);
+        self.wait(1.0);
+        let before = texts(self);
+        self.pass(vec![Event::PointerMoved(at)]);
+        self.rest(4);
+        let is_shown = self.context.memory(|memory| {
+            let layers: Vec<LayerId> = memory.areas().visible_layer_ids().into_iter().collect();
+            layers.iter().any(|layer| layer.order == Order::Tooltip)
+        });
+        let found = texts(self).into_iter().find(|text| !before.contains(text));
+        is_shown.then_some(found).flatten()
     }
 
     /// Clicks on a box and types into it, key by key, with a pass or two after each; leaves the box by Enter.

@@ -51,7 +51,7 @@ fn check(window: &mut Window, steps: usize) {
 #[test]
 fn a_drag_is_one_step() {
     let mut window = Window::new(scene(1.0));
-    let slider = window.in_row("fuzz", Role::Slider)[0];
+    let slider = window.places(Role::Slider)[0];
     drag_slowly(&mut window, slider.left_center(), slider.right_center() - vec2(20.0, 0.0));
     assert!(window.state.edits.materials[&0].alpha.is_some());
     check(&mut window, 1);
@@ -62,7 +62,7 @@ fn a_drag_is_one_step() {
 #[test]
 fn a_number_that_is_typed_is_one_step() {
     let mut window = Window::new(scene(1.0));
-    let number = window.in_row("fuzz", Role::SpinButton)[0];
+    let number = window.in_row("alpha", Role::SpinButton)[0];
     window.type_into(number, "0.7125");
     assert_eq!(window.state.edits.materials[&0].alpha, Some(0.7125));
     check(&mut window, 1);
@@ -75,16 +75,9 @@ fn a_colour_is_one_step_while_its_picker_stays_open() {
     window.click(well.center());
     window.pass(vec![]);
     assert!(egui::Popup::is_any_open(&window.context));
-    // The square of saturation and value is below the numbers.
-    let numbers = window.places(Role::SpinButton);
-    let popup = numbers.iter().filter(|place| place.min.y > well.max.y && place.min.x < well.max.x).count();
-    assert!(popup > 0);
     let before = window.state.edits.clone();
-    let mut at = well.left_bottom() + vec2(20.0, 20.0);
-    while window.state.edits == before && at.y < 1000.0 {
-        at.y += 10.0;
-        drag_slowly(&mut window, at, at + vec2(40.0, 0.0));
-    }
+    let square = window.place(Role::Slider, "saturation and brightness");
+    drag_slowly(&mut window, square.center(), square.center() + vec2(40.0, 0.0));
     assert!(egui::Popup::is_any_open(&window.context));
     assert_ne!(window.state.edits, before);
     assert!(window.state.history.can_undo());
@@ -96,9 +89,9 @@ fn a_colour_is_one_step_while_its_picker_stays_open() {
 #[test]
 fn nothing_is_undone_in_the_midst_of_a_drag() {
     let mut window = Window::new(scene(1.0));
-    let number = window.in_row("fuzz", Role::SpinButton)[0];
+    let number = window.in_row("alpha", Role::SpinButton)[0];
     window.type_into(number, "0.7");
-    let slider = window.in_row("fuzz", Role::Slider)[0];
+    let slider = window.places(Role::Slider)[0];
     let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
     window.pass(vec![Event::PointerMoved(slider.center())]);
     window.pass(vec![Event::PointerButton { pos: slider.center(), button, pressed: true, modifiers }]);
@@ -115,13 +108,41 @@ fn nothing_is_undone_in_the_midst_of_a_drag() {
 #[test]
 fn reset_is_undone_but_for_the_view() {
     let mut window = Window::new(scene(1.0));
-    let number = window.in_row("fuzz", Role::SpinButton)[0];
+    let number = window.in_row("alpha", Role::SpinButton)[0];
     window.type_into(number, "0.7");
     let reset = window.place(Role::Button, "Reset").center();
     window.click(reset);
     assert_eq!(window.state.edits, Edits::default());
     window.state.undo();
     assert_eq!(window.state.edits.materials[&0].alpha, Some(0.7));
+}
+
+#[test]
+fn buttons_undo_and_redo_and_say_why_not() {
+    let mut window = Window::new(scene(1.0));
+    let button = |window: &Window, name: &str| window.place(Role::Button, name).center();
+    let says = |window: &mut Window, name: &str, wanted: &str| {
+        let at = button(window, name);
+        let text = window.hover_text(at).unwrap_or_default();
+        assert!(text.contains(wanted), "{name}: {text}");
+    };
+    says(&mut window, "Undo", "nothing to undo");
+    says(&mut window, "Redo", "nothing to redo");
+    let number = window.in_row("alpha", Role::SpinButton)[0];
+    window.type_into(number, "0.7");
+    let done = window.state.edits.clone();
+    says(&mut window, "Undo", "Ctrl-Z");
+    let undo = button(&window, "Undo");
+    assert_eq!(window.click(undo), Change::Materials);
+    assert_eq!(window.state.edits, Edits::default());
+    window.pass(vec![]);
+    says(&mut window, "Undo", "nothing to undo");
+    says(&mut window, "Redo", "Ctrl-Shift-Z");
+    // A button that is disabled does nothing.
+    assert_eq!(window.click(undo), Change::None);
+    let redo = button(&window, "Redo");
+    assert_eq!(window.click(redo), Change::Materials);
+    assert_eq!(window.state.edits, done);
 }
 
 #[test]

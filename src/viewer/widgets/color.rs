@@ -5,11 +5,8 @@ use glam::Vec3;
 
 use super::control::{About, Touch, double_click_control};
 use super::number::{number_box, typed_box};
+use super::picker::color_button;
 use super::{LABEL, row};
-
-/// What egui's picker may add to a channel by rounding on the way through hue, saturation and value; the least that a
-/// user can change is thirty times as much.
-const ROUNDING: f32 = 1e-5;
 
 /// A colour, linear Rec. 709 in [0, 1]: a row with its name, a swatch and a box for sRGB, and one with linear numbers.
 pub fn color_rows<'a>(ui: &mut Ui, label: &str, about: impl Into<About<'a>>, color: Vec3) -> Touch<Vec3> {
@@ -40,16 +37,7 @@ pub fn color_rows<'a>(ui: &mut Ui, label: &str, about: impl Into<About<'a>>, col
 /// A button that shows a colour and opens a picker.
 fn swatch(ui: &mut Ui, about: About, color: Vec3) -> Touch<Vec3> {
     let text = format!("{}\nClick to pick a colour; the swatch shows it as it is picked.", about.text);
-    double_click_control(ui, About { text: &text, ..about }, &color, |ui, color| {
-        let mut channels = color.to_array();
-        let response = ui.color_edit_button_rgb(&mut channels);
-        // egui also calls a colour changed that its open picker has only rounded.
-        let picked = Vec3::from_array(channels).clamp(Vec3::ZERO, Vec3::ONE);
-        if response.changed() && !picked.abs_diff_eq(*color, ROUNDING) {
-            *color = picked;
-        }
-        response
-    })
+    double_click_control(ui, About { text: &text, ..about }, &color, color_button)
 }
 
 /// A box for the colour as the web writes it.

@@ -4,6 +4,7 @@ mod color;
 mod control;
 mod glow;
 mod number;
+mod picker;
 mod sum;
 
 use egui::{Align, CollapsingHeader, ComboBox, Label, Layout, RichText, Ui, vec2};
