@@ -17,6 +17,7 @@ use super::screen::Screen;
 use super::state::State;
 use super::{sheet_view, theme, window_size};
 use crate::renderer::{Gpu, device};
+use crate::scene::Edits;
 use crate::table::SheenTable;
 
 /// The least time between two passes for a pointer that only hovers: a mouse may tell of its moves a thousand times a
@@ -66,6 +67,8 @@ pub(super) struct Open {
     untold: Change,
     /// Textures of the sheet's pictures that the painter has made.
     tiles: Vec<TextureId>,
+    /// What the sheet was of when the last of them was asked for.
+    asked: Option<Edits>,
     /// Whether egui wants its next pass as soon as the painter is free.
     pub is_eager: bool,
 }
@@ -107,6 +110,7 @@ impl Open {
             comment: None,
             untold: Change::None,
             tiles: Vec::new(),
+            asked: None,
             is_eager: false,
         };
         open.fit();
@@ -196,7 +200,9 @@ impl Open {
         }
         if let Some((index, id)) = report.tile {
             self.tiles.push(id);
-            if let Some(sheet) = &mut state.sheet {
+            // The sheet may have begun anew meanwhile.
+            let asked = self.asked.take();
+            if let Some(sheet) = state.sheet.as_mut().filter(|sheet| Some(&sheet.edits) == asked.as_ref()) {
                 sheet.pictures[index] = Some(id);
                 return Ok(true);
             }
@@ -263,6 +269,9 @@ impl Open {
             stale,
             announced: self.announced,
         };
+        if matches!(work, Work::Tile(..)) {
+            self.asked = state.and_then(|state| state.sheet.as_ref()).map(|sheet| sheet.edits.clone());
+        }
         self.busy = Some(now);
         self.painter.give(order);
     }
