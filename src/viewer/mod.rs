@@ -64,6 +64,11 @@ pub enum ViewerError {
     Scene(String),
 }
 
+/// What a scene is called in the window: its path's last part.
+fn file_name(name: &str) -> &str {
+    std::path::Path::new(name).file_name().and_then(|name| name.to_str()).unwrap_or(name)
+}
+
 /// Connects to the display; [`ViewerError::NoDisplay`] where there is none.
 pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     let no_server = || ViewerError::NoDisplay("no Wayland or X11 server answers".to_owned());

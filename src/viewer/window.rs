@@ -19,7 +19,7 @@ use super::native;
 use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
-use super::window_size;
+use super::{file_name, window_size};
 use crate::table::SheenTable;
 
 /// How long a scene may take to load before a window is opened that says so: one that is there by then, or that cannot be
@@ -67,7 +67,7 @@ impl App {
 
     fn title(&self, doing: Option<&str>) -> String {
         let doing = doing.map(|doing| format!(" - {doing}")).unwrap_or_default();
-        format!("Velour - {}{doing}", self.name)
+        format!("Velour - {}{doing}", file_name(&self.name))
     }
 
     /// Takes the scene where it is there after so long at most.
@@ -89,7 +89,7 @@ impl App {
             let last = match (&mut self.state, &self.loading) {
                 (Some(state), _) => layout::show(ui, state),
                 (None, Some(loading)) => {
-                    loading::show(ui, &self.name, loading);
+                    loading::show(ui, file_name(&self.name), loading);
                     Layout::default()
                 }
                 (None, None) => Layout::default(),

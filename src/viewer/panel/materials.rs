@@ -18,8 +18,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         return;
     }
     let before = state.material;
-    // Names may repeat, or be empty.
-    let title = |index: usize| format!("{index} {}", names[index]);
+    let title = |index: usize| title(&names, index);
     let list = ComboBox::from_id_salt("materials").width(ui.available_width()).truncate();
     let list = list.selected_text(short(&title(before), NAME_SHOWN));
     let list = list.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show_ui(ui, |ui| {
@@ -53,6 +52,12 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     }
 }
 
+/// What a material is called: names may repeat, or be empty, and then its number says which it is.
+fn title(names: &[&str], index: usize) -> String {
+    let is_told_apart = !names[index].is_empty() && names.iter().filter(|name| **name == names[index]).count() == 1;
+    if is_told_apart { names[index].to_owned() } else { format!("{index} {}", names[index]) }
+}
+
 /// The materials whose number and name hold a text, whatever its case.
 fn found(names: &[&str], wanted: &str) -> Vec<usize> {
     let wanted = wanted.trim().to_lowercase();
@@ -63,6 +68,12 @@ fn found(names: &[&str], wanted: &str) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_for_those_that_names_do_not_tell_apart() {
+        let names = ["velvet", "felt", "velvet", ""];
+        assert_eq!([0, 1, 2, 3].map(|index| title(&names, index)), ["0 velvet", "felt", "2 velvet", "3 "]);
+    }
 
     #[test]
     fn what_is_wanted_is_found_whatever_its_case() {

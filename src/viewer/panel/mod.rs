@@ -11,6 +11,7 @@ mod presets;
 
 use egui::Ui;
 
+use super::file_name;
 use super::request::Request;
 use super::state::State;
 use super::widgets::{fold, refused};
@@ -27,8 +28,8 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     let request = strip.show(ui, |ui| actions::show(ui, state)).inner;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
-        let name = egui::RichText::new(&state.name).heading();
-        ui.add(egui::Label::new(name).truncate().selectable(false));
+        let name = egui::RichText::new(file_name(&state.name)).heading();
+        ui.add(egui::Label::new(name).truncate().selectable(false)).on_hover_text(&state.name);
         notices::show(ui, state.notices.iter().chain(&state.notice));
         ui.separator();
         fold(ui, "Material", true, |ui| material::show(ui, state));
