@@ -1,0 +1,60 @@
+//! A small window: the panel folds away, and frames are quick, so that many of them can be counted.
+
+use super::alone;
+use super::desk::Desk;
+use super::shot::Area;
+
+const SIZE: [u16; 2] = [480, 320];
+/// Where the panel is, once it is there, without what it says of the picture; and all that is left of the picture then.
+const PANEL: Area = [184, 440, 40, 220];
+const PICTURE: Area = [0, 176, 0, 320];
+/// The button that folds it, at the picture's edge.
+const SHOW: [i16; 2] = [463, 14];
+const HIDE: [i16; 2] = [163, 14];
+
+#[test]
+fn in_a_small_window_the_panel_folds_and_a_thousand_frames_leave_nothing_in_memory() {
+    let _alone = alone();
+    let mut desk = Desk::new(SIZE, &[]);
+    fold(&mut desk);
+    remember(&mut desk);
+    desk.close();
+}
+
+/// It is folded away at first, can be brought back, scrolls, and goes away again.
+fn fold(desk: &mut Desk) {
+    let folded = desk.settle();
+    desk.click(SHOW);
+    let shown = desk.until_shown("panel", |shot| shot.differs(&folded, PANEL, 8) > 0.9);
+    desk.move_to([300, 130]);
+    desk.settle();
+    for _ in 0..5 {
+        desk.wheel(false);
+    }
+    let scrolled = desk.settle();
+    assert!(scrolled.differs(&shown, PANEL, 8) > 0.05, "it does not scroll");
+    desk.click(HIDE);
+    desk.until_shown("picture alone", |shot| shot.differs(&folded, PANEL, 16) < 0.05);
+    let again = desk.settle();
+    assert!(again.differs(&folded, PICTURE, 16) < 0.05);
+}
+
+/// Each frame of a drag is waited for.
+fn remember(desk: &mut Desk) {
+    let mut last = desk.settle();
+    let mut drag = |desk: &mut Desk, frames: i16| {
+        desk.move_to([60, 150]);
+        desk.press(1);
+        for frame in 0..frames {
+            desk.move_to([60 + (frame * 7) % 100, 100 + (frame * 3) % 100]);
+            last = desk.until_shown("frame", |shot| !shot.shows(&last, PICTURE));
+        }
+        desk.release(1);
+        last = desk.settle();
+        desk.memory()
+    };
+    let first = drag(desk, 100);
+    let after = drag(desk, 1000);
+    println!("{first} kB after the first hundred frames, {after} kB after a thousand more");
+    assert!(after < first + 6000, "{first} kB have become {after}");
+}
