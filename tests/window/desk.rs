@@ -17,7 +17,7 @@ use x11rb::rust_connection::RustConnection;
 use super::shot::Shot;
 
 /// How long anything may take on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(240);
+const PATIENCE: Duration = Duration::from_secs(300);
 /// What does nothing for so long waits for its user: no delay of the program's own is longer.
 const REST: Duration = Duration::from_millis(1200);
 /// Processor time that may be counted meanwhile: the clock ticks in hundredths.
@@ -87,6 +87,18 @@ impl Desk {
         // There is no window manager that would give it the keyboard.
         desk.connection.set_input_focus(InputFocus::PARENT, desk.window, 0_u32).unwrap().check().unwrap();
         desk.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
+        desk
+    }
+
+    /// The same with the default scene, without shadows: pictures are finished as soon as they are drawn, and come out the same each time.
+    pub fn without_shadows(size: [u16; 2]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let state = folder.path().join("state.toml");
+        std::fs::write(&state, "shadows = false\n").unwrap();
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/drape.glb");
+        let mut desk = Self::new(size, &["view".as_ref(), &scene, "--state".as_ref(), &state]);
+        // The state has been read.
+        desk.settle();
         desk
     }
 

@@ -30,8 +30,8 @@ fn idle(desk: &Desk) {
     }
     let took = desk.cpu() - before;
     println!("{took:?} of processor time for a hundred moves");
-    // A picture takes more than ten times as much.
-    assert!(took < Duration::from_secs(1), "{took:?} for a hundred moves");
+    // So many pictures would take more than ten times as much.
+    assert!(took < Duration::from_secs(4), "{took:?} for a hundred moves");
 }
 
 /// What is dragged is drawn in few pixels, and sharp when it rests.
@@ -41,8 +41,9 @@ fn drag(desk: &mut Desk) {
     desk.press(1);
     let mut last = first.clone();
     let mut sharpness = Vec::new();
-    for step in 1..=20 {
-        desk.move_to([300 + 4 * step, 300]);
+    for step in 1..=12 {
+        // The first step is more than what a click may wander.
+        desk.move_to([300 + 8 * step, 300]);
         last = desk.until_shown("picture of what is dragged", |shot| !shot.shows(&last, CLOTH));
         sharpness.push(last.sharpness(CLOTH));
     }

@@ -9,7 +9,7 @@ use super::places::{
 #[test]
 fn hands_in_the_panel() {
     let _alone = alone();
-    let mut desk = Desk::new(SIZE, &[]);
+    let mut desk = Desk::without_shadows(SIZE);
     desk.settle();
     assert!(untouched(&desk.state()));
     sliding(&mut desk);

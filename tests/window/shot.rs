@@ -38,11 +38,13 @@ impl Shot {
         self.differs(other, area, 0) == 0.0
     }
 
-    /// Of neighbours to the right, the mean difference: what is drawn in few pixels has little of it.
+    /// How far a pixel is from the mean of its neighbours to the left and right, twice that, on the mean: what is drawn in few pixels, and
+    /// straight between them, has little of it.
     pub fn sharpness(&self, [left, right, top, bottom]: Area) -> f64 {
-        let area = [left, right - 1, top, bottom];
-        let step = |(x, y)| f64::from(self.at((x, y))[1].abs_diff(self.at((x + 1, y))[1]));
-        places(area).map(step).sum::<f64>() / size(area)
+        let area = [left + 1, right - 1, top, bottom];
+        let green = |x, y| f64::from(self.at((x, y))[1]);
+        let bend = |(x, y)| (green(x - 1, y) - 2.0 * green(x, y) + green(x + 1, y)).abs();
+        places(area).map(bend).sum::<f64>() / size(area)
     }
 
     /// The mean of green.
