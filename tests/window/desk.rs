@@ -139,6 +139,8 @@ impl Desk {
             if let Some(answer) = ask(self) {
                 return answer;
             }
+            let status = self.program.try_wait().unwrap();
+            assert!(status.is_none(), "no {what}: the program has ended, {status:?}");
             assert!(start.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
             std::thread::sleep(Duration::from_millis(20));
         }

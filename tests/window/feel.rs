@@ -56,7 +56,7 @@ fn drag(desk: &mut Desk) {
     assert!(first.differs(&rested, CLOTH, 8) > 0.3, "it has not turned");
     let [before, after] = [&first, &rested].map(|shot| shot.sharpness(CLOTH));
     println!("sharpness before, while it moves, and at rest: {before} {moving} {after}");
-    assert!(moving < 0.8 * after && after > 0.7 * before, "{before} {moving} {after}");
+    assert!(moving < 0.8 * after && after > 0.5 * before, "{before} {moving} {after}");
     assert!(rested.shows(&first, PANEL), "the panel has changed");
     assert!(!rested.shows(&first, PICTURE));
 }

@@ -15,7 +15,7 @@ const HIDE: [i16; 2] = [163, 14];
 #[test]
 fn in_a_small_window_the_panel_folds_and_a_thousand_frames_leave_nothing_in_memory() {
     let _alone = alone();
-    let mut desk = Desk::without_shadows(SIZE);
+    let mut desk = Desk::new(SIZE, &[]);
     fold(&mut desk);
     remember(&mut desk);
     desk.close();
