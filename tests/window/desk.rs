@@ -142,7 +142,7 @@ impl Desk {
             let status = self.program.try_wait().unwrap();
             assert!(status.is_none(), "no {what}: the program has ended, {status:?}");
             assert!(start.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 
