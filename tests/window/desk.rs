@@ -335,7 +335,7 @@ impl Desk {
     }
 
     /// Asks the window to close, as its frame's button does.
-    fn ask_to_close(&self) {
+    pub fn ask_to_close(&self) {
         use x11rb::protocol::xproto::{ClientMessageEvent, EventMask};
         let atom = |name: &[u8]| self.connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
