@@ -14,46 +14,46 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
+use super::shot::Shot;
+
 /// How long anything may take on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(120);
-/// A process that takes less time than this in a second does nothing: the clock ticks in hundredths.
-const IDLE: Duration = Duration::from_millis(10);
+const PATIENCE: Duration = Duration::from_secs(300);
+/// What does nothing for so long waits for its user: no delay of the program's own is longer.
+const REST: Duration = Duration::from_millis(1200);
+/// Processor time that may be counted meanwhile: the clock ticks in hundredths.
+const TICK: Duration = Duration::from_millis(10);
 
 /// Keys by their X11 names' numbers.
 pub mod keys {
     pub const ENTER: u32 = 0xff0d;
     pub const ESCAPE: u32 = 0xff1b;
-    pub const TAB: u32 = 0xff09;
     pub const HOME: u32 = 0xff50;
     pub const SHIFT: u32 = 0xffe1;
     pub const CONTROL: u32 = 0xffe3;
 }
 
-/// A picture of the screen.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Shot {
-    pub width: usize,
-    pixels: Vec<[u8; 3]>,
-}
+/// What the program has saved of its state.
+pub struct State(pub String);
 
-impl Shot {
-    pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
-        self.pixels[y * self.width + x]
+impl State {
+    /// The text after a key.
+    pub fn get(&self, key: &str) -> Option<&str> {
+        self.0.lines().find_map(|line| line.strip_prefix(key)?.trim_start().strip_prefix('=')).map(str::trim)
     }
 
-    /// The share of pixels in columns and rows that differ from another picture's by more than `by` in some channel.
-    pub fn differs(&self, other: &Self, [left, right, top, bottom]: [usize; 4], by: u8) -> f64 {
-        let places = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
-        let far = |one: [u8; 3], other: [u8; 3]| (0..3).any(|channel| one[channel].abs_diff(other[channel]) > by);
-        let different = places.filter(|&(x, y)| far(self.at(x, y), other.at(x, y))).count();
-        different as f64 / ((right - left) * (bottom - top)) as f64
+    /// The numbers after a key, one or in brackets.
+    pub fn numbers(&self, key: &str) -> Vec<f64> {
+        let list = self.get(key).unwrap_or_else(|| panic!("no {key} in\n{}", self.0));
+        list.trim_matches(['[', ']']).split(',').map(|number| number.trim().parse().unwrap()).collect()
     }
 
-    /// Of neighbours to the right, the mean difference: what is drawn in few pixels has little of it.
-    pub fn sharpness(&self, [left, right, top, bottom]: [usize; 4]) -> f64 {
-        let places = (top..bottom).flat_map(|y| (left..right - 1).map(move |x| (x, y)));
-        let step = |(x, y)| f64::from(self.at(x, y)[1].abs_diff(self.at(x + 1, y)[1]));
-        places.map(step).sum::<f64>() / ((right - left - 1) * (bottom - top)) as f64
+    pub fn number(&self, key: &str) -> f64 {
+        self.numbers(key)[0]
+    }
+
+    /// Whether the view is another than the file's.
+    pub fn has_view(&self) -> bool {
+        self.0.contains("[view]")
     }
 }
 
@@ -86,13 +86,27 @@ impl Desk {
         desk.connection.configure_window(desk.window, &place).unwrap().check().unwrap();
         // There is no window manager that would give it the keyboard.
         desk.connection.set_input_focus(InputFocus::PARENT, desk.window, 0_u32).unwrap().check().unwrap();
-        desk.move_to(i16::try_from(size[0] / 3).unwrap(), 5);
+        desk.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
+        desk
+    }
+
+    /// The same with the default scene, without shadows: pictures are finished as soon as they are drawn, and come out the same each time.
+    pub fn without_shadows(size: [u16; 2]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let state = folder.path().join("state.toml");
+        std::fs::write(&state, "shadows = false\n").unwrap();
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/drape.glb");
+        let mut desk = Self::new(size, &["view".as_ref(), &scene, "--state".as_ref(), &state]);
+        // The state has been read.
+        desk.settle();
         desk
     }
 
     /// The same before there is a window.
     pub fn without_window(size: [u16; 2], arguments: &[&Path]) -> Self {
-        let screen = format!("{}x{}x24", size[0], size[1]);
+        // A window takes nine tenths of its monitor at most.
+        let [width, height] = size.map(|side| side.div_ceil(9) * 10);
+        let screen = format!("{width}x{height}x24");
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -119,14 +133,16 @@ impl Desk {
     }
 
     /// Asks until there is an answer.
-    pub fn until<T>(&mut self, what: &str, ask: impl Fn(&mut Self) -> Option<T>) -> T {
+    pub fn until<T>(&mut self, what: &str, mut ask: impl FnMut(&mut Self) -> Option<T>) -> T {
         let start = Instant::now();
         loop {
             if let Some(answer) = ask(self) {
                 return answer;
             }
+            let status = self.program.try_wait().unwrap();
+            assert!(status.is_none(), "no {what}: the program has ended, {status:?}");
             assert!(start.elapsed() < PATIENCE, "no {what} after {PATIENCE:?}");
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 
@@ -149,18 +165,13 @@ impl Desk {
         self.title_of(self.window)
     }
 
-    /// Whether there is a window to be seen.
-    pub fn has_window(&self) -> bool {
-        self.find().is_some()
-    }
-
     /// What the screen shows.
     pub fn shot(&self) -> Shot {
         let [width, height] = self.size;
         let image = self.connection.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, !0);
         let data = image.unwrap().reply().unwrap().data;
         let pixels = data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
-        Shot { width: width.into(), pixels }
+        Shot::new(width.into(), pixels)
     }
 
     /// Processor time that the program has taken.
@@ -181,25 +192,48 @@ impl Desk {
         of("RssAnon:") + of("VmSwap:")
     }
 
+    /// Whether some thread of the program runs, or would if there were a processor for it.
+    fn is_running(&self) -> bool {
+        let tasks = std::fs::read_dir(format!("/proc/{}/task", self.program.id())).unwrap();
+        tasks.flatten().any(|task| {
+            // One that has ended since does nothing.
+            let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
+            stat.rsplit(") ").next().is_some_and(|after| after.starts_with(['R', 'D']))
+        })
+    }
+
+    /// Whether it does nothing for so long. On a machine that has other things to do, what is merely kept waiting does not count.
+    pub fn is_idle_for(&self, time: Duration) -> bool {
+        let (start, before) = (Instant::now(), self.cpu());
+        while start.elapsed() < time {
+            if self.is_running() {
+                return false;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        self.cpu() - before <= TICK
+    }
+
     /// Waits until the program does nothing any more: its picture is finished.
     pub fn settle(&mut self) -> Shot {
-        self.until("rest", |desk| {
-            let before = desk.cpu();
-            std::thread::sleep(Duration::from_secs(1));
-            (desk.cpu() - before < IDLE).then_some(())
-        });
+        self.until("rest", |desk| desk.is_idle_for(REST).then_some(()));
         self.shot()
+    }
+
+    /// Waits until what is shown fits, and says what that is.
+    pub fn until_shown(&mut self, what: &str, fits: impl Fn(&Shot) -> bool) -> Shot {
+        self.until(what, |desk| Some(desk.shot()).filter(&fits))
     }
 
     fn fake(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
         self.connection.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap().check().unwrap();
     }
 
-    pub fn move_to(&self, x: i16, y: i16) {
-        self.fake(MOTION_NOTIFY_EVENT, 0, [x, y]);
+    pub fn move_to(&self, place: [i16; 2]) {
+        self.fake(MOTION_NOTIFY_EVENT, 0, place);
     }
 
-    /// 1 is the left button, 2 the middle, 3 the right; 4 and 5 turn the wheel up and down.
+    /// 1 is the left button, 2 the middle, 3 the right.
     pub fn press(&self, button: u8) {
         self.fake(BUTTON_PRESS_EVENT, button, [0; 2]);
     }
@@ -208,8 +242,8 @@ impl Desk {
         self.fake(BUTTON_RELEASE_EVENT, button, [0; 2]);
     }
 
-    pub fn click(&self, x: i16, y: i16) {
-        self.move_to(x, y);
+    pub fn click(&self, place: [i16; 2]) {
+        self.move_to(place);
         std::thread::sleep(Duration::from_millis(60));
         self.press(1);
         std::thread::sleep(Duration::from_millis(60));
@@ -217,14 +251,21 @@ impl Desk {
         std::thread::sleep(Duration::from_millis(60));
     }
 
+    /// A step of the wheel, up or down.
+    pub fn wheel(&self, up: bool) {
+        let button = if up { 4 } else { 5 };
+        self.press(button);
+        self.release(button);
+    }
+
     /// A drag in steps of some pixels, each of which is waited for.
     pub fn drag(&self, button: u8, from: [i16; 2], to: [i16; 2]) {
-        self.move_to(from[0], from[1]);
+        self.move_to(from);
         std::thread::sleep(Duration::from_millis(60));
         self.press(button);
         for step in 1..=10_i16 {
             let between = |axis: usize| from[axis] + (to[axis] - from[axis]) / 10 * step;
-            self.move_to(between(0), between(1));
+            self.move_to([between(0), between(1)]);
             std::thread::sleep(Duration::from_millis(40));
         }
         self.release(button);
@@ -260,38 +301,61 @@ impl Desk {
     }
 
     /// The state, as the program saves it when it is asked to.
-    pub fn state(&mut self) -> String {
-        let number = (1..).find(|number| !self.folder.path().join(format!("velour-{number:03}.toml")).exists());
-        let path = self.folder.path().join(format!("velour-{:03}.toml", number.unwrap()));
+    pub fn state(&mut self) -> State {
         self.chord(&[keys::CONTROL], u32::from('s'));
-        self.file(&path)
+        let path = self.written("velour-001.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::remove_file(path).unwrap();
+        State(text)
     }
 
-    /// What is in a file, once it is there: files appear whole.
-    pub fn file(&mut self, path: &Path) -> String {
-        self.until("file", |_| std::fs::read_to_string(path).ok())
+    /// The state, once it is so.
+    pub fn until_state(&mut self, what: &str, fits: impl Fn(&State) -> bool) -> State {
+        self.until(what, |desk| Some(desk.state()).filter(&fits))
     }
 
-    /// The path of a file in the program's folder, once it is there.
+    /// Takes back the last change, which leaves a state that fits.
+    pub fn undo(&mut self, what: &str, fits: impl Fn(&State) -> bool) {
+        self.chord(&[keys::CONTROL], u32::from('z'));
+        let state = self.state();
+        assert!(fits(&state), "{what} taken back:\n{}", state.0);
+    }
+
+    /// The path of a file in the program's folder, once it is there: files appear whole.
     pub fn written(&mut self, name: &str) -> PathBuf {
         let path = self.folder.path().join(name);
         self.until(name, |_| path.exists().then_some(()));
         path
     }
 
+    /// Closes the window, which ends the program as it should.
+    pub fn close(&mut self) {
+        self.ask_to_close();
+        assert_eq!((self.ended().code(), self.complaints().as_str()), (Some(0), ""));
+    }
+
     /// Asks the window to close, as its frame's button does.
-    pub fn close(&mut self) -> ExitStatus {
+    pub fn ask_to_close(&self) {
         use x11rb::protocol::xproto::{ClientMessageEvent, EventMask};
         let atom = |name: &[u8]| self.connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
         let message = ClientMessageEvent::new(32, self.window, protocols, [delete, 0, 0, 0, 0]);
         self.connection.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap().check().unwrap();
-        self.ended()
     }
 
     /// Waits for the program's end.
     pub fn ended(&mut self) -> ExitStatus {
         self.until("end", |desk| desk.program.try_wait().unwrap())
+    }
+
+    /// Waits for the program's end; its exit code, and whether there was a window until then.
+    pub fn ended_without_window(&mut self) -> (Option<i32>, bool) {
+        let mut has_had_window = false;
+        let status = self.until("end", |desk| {
+            has_had_window |= desk.find().is_some();
+            desk.program.try_wait().unwrap()
+        });
+        (status.code(), has_had_window)
     }
 
     /// What it has said on stderr, once it has ended.

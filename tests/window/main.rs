@@ -6,6 +6,10 @@
 mod desk;
 mod feel;
 mod hands;
+mod panel;
+mod places;
+mod shot;
+mod small;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
