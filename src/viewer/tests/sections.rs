@@ -170,7 +170,7 @@ fn many_materials_are_searched() {
                 window.pass(vec![Event::Text(character.to_string())]);
                 window.pass(vec![]);
             }
-            let found = window.place(Role::Button, "147 cloth.147");
+            let found = window.place(Role::Button, "cloth.147");
             window.click(found.center());
             assert_eq!(window.state.material, 147);
             assert!(!egui::Popup::is_any_open(&window.context));
