@@ -17,6 +17,11 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// Whether the device is a program on the processor.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
     /// Runs a future of this crate to its end, waiting for the device whenever it is pending. Blocks; not for browsers,
     /// where the event loop does this.
     pub fn block_on<T>(&self, future: impl Future<Output = T>) -> T {

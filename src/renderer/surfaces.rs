@@ -85,8 +85,7 @@ impl SurfacesPass {
         let bind_group = bind_group(device, &layout, (&frame, &tables), resident);
         let pipelines =
             Pipelines { shaders: Shaders::default(), layout: pipeline_layout, shadowed_layout, radiance, guide };
-        let is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let triangles_a_pass = if is_software { TRIANGLES_A_PASS } else { u32::MAX };
+        let triangles_a_pass = if gpu.is_software() { TRIANGLES_A_PASS } else { u32::MAX };
         let made = HashMap::new();
         Self { layout, made, blockers_layout, pipelines, frame, albedos, tables, bind_group, triangles_a_pass }
     }

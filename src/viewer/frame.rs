@@ -52,7 +52,7 @@ impl Frame {
 
     /// In which formats the picture is kept and shown.
     pub fn format(&self, gpu: &Gpu) -> Result<Format, ViewerError> {
-        let samples = if is_software(gpu) { SAMPLES_IN_SOFTWARE } else { SAMPLES };
+        let samples = if gpu.is_software() { SAMPLES_IN_SOFTWARE } else { SAMPLES };
         let radiance = RadianceFormat::nearest_display(&gpu.adapter, samples);
         let radiance = radiance.ok_or_else(|| ViewerError::Window("the adapter cannot draw floats".to_owned()))?;
         Ok(Format { radiance, output: self.configuration.format, measured: false })
@@ -159,9 +159,4 @@ impl Frame {
             height: pixels(place.max.y, height).saturating_sub(y).max(1),
         }
     }
-}
-
-/// Whether the device is a program on the processor.
-pub(super) fn is_software(gpu: &Gpu) -> bool {
-    gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu
 }

@@ -1,7 +1,7 @@
 //! What draws the window, on a thread of its own, so that the window answers however long a frame takes.
 
 use super::ViewerError;
-use super::frame::{Frame, is_software};
+use super::frame::Frame;
 use super::native;
 use super::order::{Order, Report, Shot, Work};
 use super::picture::Picture;
@@ -74,8 +74,7 @@ impl Painter {
             }
             None => {
                 let format = self.frame.format(&self.gpu)?;
-                let slow = is_software(&self.gpu);
-                self.picture.insert(Picture::new(&self.gpu, format, &self.table, shot, slow)?)
+                self.picture.insert(Picture::new(&self.gpu, format, &self.table, shot)?)
             }
         };
         picture.receive(&self.gpu, shot, [in_pixels.width, in_pixels.height])?;

@@ -55,13 +55,12 @@ fn is_near(camera: &Camera, other: &Camera, center: Vec3) -> bool {
 }
 
 impl Picture {
-    /// `slow`: whether drawing is expected to take long.
-    pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, shot: &Shot, slow: bool) -> Result<Self, RenderError> {
+    pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, shot: &Shot) -> Result<Self, RenderError> {
         Ok(Self {
             renderer: Renderer::new(gpu, format, table, &shot.drawn())?,
             size: [0; 2],
             undrawn: Change::Lights,
-            resting: Resting::new(slow),
+            resting: Resting::new(gpu.is_software()),
             times: FrameTimes::default(),
             building: None,
             is_checked: false,

@@ -35,8 +35,6 @@ pub fn show(ui: &mut Ui, picture: Rect, state: &mut State) {
     }
     if let Some(index) = taken {
         state.edits = sheet.edits_of(index, material);
-    }
-    if taken.is_some() {
         state.sheet = None;
         ui.ctx().request_repaint();
     }

@@ -72,6 +72,7 @@ impl State {
         let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
         let camera = edits.camera(&scene);
         let center = pick::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
+        let diagonal = scene.bounds().diagonal();
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
@@ -91,8 +92,8 @@ impl State {
             history: History::new(&edits),
             center,
             distance: Orbit::new(&camera, center).distance,
-            size: (scene.bounds().diagonal() as f32).max(f32::MIN_POSITIVE),
-            step: step(scene.bounds().diagonal()),
+            size: (diagonal as f32).max(f32::MIN_POSITIVE),
+            step: step(diagonal),
             scene: Arc::new(scene),
             edits,
         }
