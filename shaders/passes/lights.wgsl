@@ -59,7 +59,7 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
     let end = select(lights_counts.polygons, lights_counts.quads, quads);
     var index = lights_next(receiver, first, end);
     while index < end {
-        let integrals = polygons_integrals(receiver, polygons_lights[index], quads);
+        let integrals = polygons_integrals(receiver, polygons_light(index), quads);
         var form_factors = integrals.form_factors;
         var factors = patterns_seen(receiver, index, integrals.directions);
         if VARIANT_PRIOR_SHEEN {
@@ -67,7 +67,7 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
             form_factors.sheen = sum.form_factor;
             factors.sheen = sum.factor;
         }
-        let radiance = polygons_lights[index].radiance;
+        let radiance = polygons_light(index).radiance;
         incident = lights_add(receiver, incident, index, radiance, form_factors, factors, integrals.mean_cosine);
         index = lights_next(receiver, index + 1u, end);
     }
@@ -79,9 +79,9 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
 fn lights_next(receiver: Receiver, first: u32, end: u32) -> u32 {
     var index = first;
     while index < end {
-        let to_center = polygons_lights[index].center - receiver.p_world;
-        let is_above = dot(receiver.normal, to_center) > -polygons_lights[index].radius;
-        let is_facing = dot(polygons_lights[index].normal, to_center) < 0.0 || polygons_lights[index].two_sided != 0u;
+        let to_center = polygons_light(index).center - receiver.p_world;
+        let is_above = dot(receiver.normal, to_center) > -polygons_light(index).radius;
+        let is_facing = dot(polygons_light(index).normal, to_center) < 0.0 || polygons_light(index).two_sided != 0u;
         if is_above && is_facing {
             break;
         }

@@ -36,14 +36,14 @@ const PATTERNS_SEEN = LTC_PI;
 // The factors of a polygon's radiance in each lobe.
 fn patterns_seen(receiver: Receiver, polygon: u32, directions: LobesVectors) -> LobesColors {
     var seen = PATTERNS_PLAIN;
-    if VARIANT_PATTERNS && polygons_lights[polygon].pattern != PATTERNS_NONE {
-        let sheet = patterns_sheets[polygons_lights[polygon].pattern];
+    if VARIANT_PATTERNS && polygons_light(polygon).pattern != PATTERNS_NONE {
+        let sheet = patterns_sheets[polygons_light(polygon).pattern];
         // Lobe by lobe, in a loop: drivers take their time over code that stands there several times, also where it is then left out.
         var m_inv = LOBES_DIFFUSE;
         var direction = directions.diffuse;
         for (var lobe = 0u; lobe < 3u; lobe++) {
             var place = patterns_place(receiver, sheet, m_inv, direction);
-            place.texels = min(place.texels, polygons_lights[polygon].pattern_texels);
+            place.texels = min(place.texels, polygons_light(polygon).pattern_texels);
             let factor = patterns_filtered(sheet, place);
             switch lobe {
                 case 0u: {

@@ -88,8 +88,8 @@ fn shadows_blocked(receiver: Receiver, origin: ShadowsOrigin) -> vec3f {
 fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {
     let start = randoms_of(receiver.seed, pick.light);
     let numbers = randoms_three(start, receiver.sample);
-    let radiance = polygons_lights[pick.light].radiance;
-    let light = polygons_lights[pick.light].light;
+    let radiance = polygons_light(pick.light).radiance;
+    let light = polygons_light(pick.light).light;
     let factors = picks_factors(pick);
     let whole = picks_per_form_factor(receiver, radiance, factors, pick.base_weight);
     // The lobe by what it brings.
@@ -120,13 +120,13 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept
     let share = select(0.0, pick.total / density, density > 0.0);
     let blocked = share * shadows_scattered(receiver, densities, radiance, factors, pick.base_weight);
     var arriving = blocked;
-    if VARIANT_PATTERNS && polygons_lights[pick.light].pattern != PATTERNS_NONE {
+    if VARIANT_PATTERNS && polygons_light(pick.light).pattern != PATTERNS_NONE {
         let even = share * shadows_scattered(receiver, densities, radiance, PATTERNS_PLAIN, pick.base_weight);
-        arriving = even * patterns_factor(receiver, polygons_lights[pick.light].pattern, wo);
+        arriving = even * patterns_factor(receiver, polygons_light(pick.light).pattern, wo);
     }
     let direction = wo * receiver.local_from_world;
-    let normal = polygons_lights[pick.light].normal;
-    let to_vertex = polygons_vertices[polygons_lights[pick.light].first_vertex].xyz - receiver.p_world;
+    let normal = polygons_light(pick.light).normal;
+    let to_vertex = polygons_vertex(polygons_light(pick.light).first_vertex).xyz - receiver.p_world;
     return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked, arriving);
 }
 

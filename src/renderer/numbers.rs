@@ -1,13 +1,17 @@
 //! Textures of numbers, read by their place: four words a texel, in rows one after the other.
 
-use wgpu::{Device, Queue, Texture, TextureFormat};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use wgpu::{BindingResource, BindingType, Device, Queue, StorageTextureAccess, Texture, TextureFormat, TextureView};
+
+use super::{Gpu, RenderError};
 
 /// A texel.
 pub(super) type Words = [u32; 4];
 
 pub(super) const FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 
-/// `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
+/// Two to the power of `NUMBERS_ROW` of `numbers.wgsl` and of `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
 pub(super) const ROW: usize = 1 << 13;
 
 /// Rows of so many texels.
@@ -49,4 +53,61 @@ pub(super) fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texe
         },
         wgpu::Extent3d { width: ROW as u32, height: rows as u32, depth_or_array_layers: 1 },
     );
+}
+
+/// How such a texture is bound.
+pub(super) fn binding() -> BindingType {
+    BindingType::StorageTexture {
+        access: StorageTextureAccess::ReadOnly,
+        format: FORMAT,
+        view_dimension: wgpu::TextureViewDimension::D2,
+    }
+}
+
+/// A texture of numbers that is written when they change, and only then.
+pub(super) struct TrackedNumbers {
+    texture: Texture,
+    view: TextureView,
+    hash: u64,
+}
+
+impl TrackedNumbers {
+    /// Fails where they are more than a texture holds; `what` they are.
+    pub fn new(gpu: &Gpu, what: &str, texels: Vec<Words>) -> Result<Self, RenderError> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let rows = rows(texels.len());
+        if rows > limit as usize {
+            let [bytes, limit] = [texels.len(), limit as usize * ROW].map(|texels| (texels * size_of::<Words>()) as u64);
+            return Err(RenderError::TooLarge { what: what.to_owned(), bytes, limit });
+        }
+        let texture = numbers(&gpu.device, what, rows);
+        let hash = hash(&texels);
+        write(&gpu.queue, &texture, 0, texels);
+        let view = texture.create_view(&Default::default());
+        Ok(Self { texture, view, hash })
+    }
+
+    pub fn binding(&self) -> BindingResource<'_> {
+        BindingResource::TextureView(&self.view)
+    }
+
+    /// Writes numbers; whether that took another texture, because they have grown.
+    pub fn write(&mut self, gpu: &Gpu, what: &str, texels: Vec<Words>) -> Result<bool, RenderError> {
+        if rows(texels.len()) > self.texture.height() as usize {
+            *self = Self::new(gpu, what, texels)?;
+            return Ok(true);
+        }
+        let hash = hash(&texels);
+        if hash != self.hash {
+            self.hash = hash;
+            write(&gpu.queue, &self.texture, 0, texels);
+        }
+        Ok(false)
+    }
+}
+
+fn hash(texels: &[Words]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    texels.hash(&mut hasher);
+    hasher.finish()
 }

@@ -10,6 +10,7 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device};
 use super::draws::{Batch, Draws};
 use super::lights::GpuLights;
 use super::materials::{GpuMaterial, Look, factors};
+use super::numbers::{TrackedNumbers, Words};
 use super::patterns::Patterns;
 use super::tracked_buffer::TrackedBuffer;
 use super::{Gpu, RenderError, textures};
@@ -31,10 +32,11 @@ pub(super) struct Resident {
     pub meshes: Vec<MeshBuffers>,
     mesh_bounds: Vec<Bounds>,
     pub instances: TrackedBuffer,
-    pub materials: TrackedBuffer,
+    /// The materials, the lights and their outlines.
+    pub numbers: TrackedNumbers,
+    /// Where the lights begin in them, and their outlines.
+    pub first: [u32; 2],
     pub counts: TrackedBuffer,
-    pub polygons: TrackedBuffer,
-    pub light_vertices: TrackedBuffer,
     pub punctual: TrackedBuffer,
     pub light_points: TrackedBuffer,
     pub sheets: TrackedBuffer,
@@ -68,14 +70,14 @@ impl Resident {
             contents: bytemuck::cast_slice(&constants),
             usage: BufferUsages::VERTEX,
         };
-        let [instances, materials, polygons, light_vertices, punctual, light_points, sheets] = contents.stored();
+        let [instances, punctual, light_points, sheets] = contents.stored();
+        let (numbers, first) = contents.numbers();
         Ok(Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
             instances: stored(instances)?,
-            materials: stored(materials)?,
+            numbers: TrackedNumbers::new(gpu, NUMBERS, numbers)?,
+            first,
             counts: TrackedBuffer::new(device, "lights", counts, BufferUsages::UNIFORM),
-            polygons: stored(polygons)?,
-            light_vertices: stored(light_vertices)?,
             punctual: stored(punctual)?,
             light_points: stored(light_points)?,
             sheets: stored(sheets)?,
@@ -95,12 +97,11 @@ impl Resident {
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
         let contents = Contents::new(drawn, &self.mesh_bounds, &mut self.patterns);
         self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));
-        let mut grown = false;
+        let (numbers, first) = contents.numbers();
+        self.first = first;
+        let mut grown = self.numbers.write(gpu, NUMBERS, numbers)?;
         let buffers = [
             &mut self.instances,
-            &mut self.materials,
-            &mut self.polygons,
-            &mut self.light_vertices,
             &mut self.punctual,
             &mut self.light_points,
             &mut self.sheets,
@@ -125,6 +126,7 @@ impl Resident {
 }
 
 const PATTERNS: &str = "the lights' patterns";
+const NUMBERS: &str = "the materials, the lights and their outlines";
 
 /// What the buffers hold.
 struct Contents {
@@ -144,14 +146,22 @@ impl Contents {
         }
     }
 
-    /// The contents of the storage buffers, with their names: instances, materials, polygons, their vertices, lights
-    /// without extent, points on the polygons, where their patterns lie.
-    fn stored(&self) -> [(&'static str, &[u8]); 7] {
+    /// Materials, polygons and their vertices, and where the latter two begin.
+    fn numbers(&self) -> (Vec<Words>, [u32; 2]) {
+        let parts: [&[Words]; 3] = [
+            bytemuck::cast_slice(&self.materials),
+            bytemuck::cast_slice(&self.lights.polygons),
+            bytemuck::cast_slice(&self.lights.vertices),
+        ];
+        let first_light = parts[0].len() as u32;
+        (parts.concat(), [first_light, first_light + parts[1].len() as u32])
+    }
+
+    /// The contents of the storage buffers, with their names: instances, lights without extent, points on the polygons, where their
+    /// patterns lie.
+    fn stored(&self) -> [(&'static str, &[u8]); 4] {
         [
             ("the instances", bytemuck::cast_slice(&self.draws.instances)),
-            ("the materials", bytemuck::cast_slice(&self.materials)),
-            ("the lights", bytemuck::cast_slice(&self.lights.polygons)),
-            ("the lights' outlines", bytemuck::cast_slice(&self.lights.vertices)),
             ("the lights without extent", bytemuck::cast_slice(&self.lights.punctual)),
             ("the points on the lights", bytemuck::cast_slice(&self.lights.points)),
             ("the places of the lights' patterns", bytemuck::cast_slice(&self.lights.sheets)),

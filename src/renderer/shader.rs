@@ -14,6 +14,7 @@ macro_rules! surfaces {
             include_str!("../../shaders/passes/variant.wgsl"),
             // What a frame is drawn with.
             include_str!("../../shaders/passes/frame.wgsl"),
+            include_str!("../../shaders/passes/numbers.wgsl"),
             // Textures, looked up.
             include_str!("../../shaders/passes/texels.wgsl"),
             // What of a pixel is covered, and what shading is filtered over it.

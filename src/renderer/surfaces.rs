@@ -18,7 +18,7 @@ use super::sample::Sample;
 use super::targets::{RadianceFormat, ShadowedTargets, Targets};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
-use super::{shadows, tables};
+use super::{numbers, shadows, tables};
 use crate::scene::Settings;
 use crate::table::SheenTable;
 
@@ -33,13 +33,13 @@ struct Frame {
     sheen: f32,
     emission: f32,
     origin: Vec3,
-    padding: u32,
+    first_light: u32,
     ambient: Vec3,
     gain: f32,
     sample: u32,
     footprint: f32,
     seed: u32,
-    end_padding: u32,
+    first_vertex: u32,
 }
 
 /// Draws a scene's surfaces.
@@ -126,7 +126,7 @@ impl SurfacesPass {
         things: (&Resident, &Blended),
         (view, settings, gain): (&View, &Settings, f32),
     ) {
-        self.write_frame(queue, (view, settings, gain), &Sample::FIRST);
+        self.write_frame(queue, things.0.first, (view, settings, gain), &Sample::FIRST);
         let (opaque, blended) = self.draws(things, view);
         let calls = split(opaque.into_iter().chain(blended), self.triangles_a_pass);
         let colors = [Some(&targets.radiance)];
@@ -145,7 +145,7 @@ impl SurfacesPass {
         rows: &Range<u32>,
     ) {
         let view = view.shifted(sample.offset(), targets.size);
-        self.write_frame(queue, (&view, settings, gain), sample);
+        self.write_frame(queue, things.0.first, (&view, settings, gain), sample);
         let (opaque, blended) = self.draws(things, &view);
         let is_first = rows.start == 0;
         if is_first {
@@ -160,7 +160,13 @@ impl SurfacesPass {
         self.run(encoder, things, (&calls, stage, Some(blockers)), (colors, &targets.depth, [is_first, false]), part);
     }
 
-    fn write_frame(&mut self, queue: &Queue, (view, settings, gain): (&View, &Settings, f32), sample: &Sample) {
+    fn write_frame(
+        &mut self,
+        queue: &Queue,
+        [first_light, first_vertex]: [u32; 2],
+        (view, settings, gain): (&View, &Settings, f32),
+        sample: &Sample,
+    ) {
         let weight = |on: bool| f32::from(u8::from(on));
         let lobes = settings.lobes;
         let frame = Frame {
@@ -171,13 +177,13 @@ impl SurfacesPass {
             sheen: weight(lobes.sheen),
             emission: weight(lobes.emission),
             origin: view.origin,
-            padding: 0,
+            first_light,
             ambient: settings.ambient,
             gain,
             sample: sample.index,
             footprint: sample.footprint(),
             seed: sample.seed,
-            end_padding: 0,
+            first_vertex,
         };
         self.frame.write(queue, bytemuck::bytes_of(&frame));
     }
@@ -320,10 +326,8 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
             entry(1, ShaderStages::FRAGMENT, table),
             entry(2, ShaderStages::FRAGMENT, table),
             entry(3, ShaderStages::VERTEX, storage),
-            entry(4, ShaderStages::FRAGMENT, storage),
+            entry(4, ShaderStages::FRAGMENT, numbers::binding()),
             entry(5, ShaderStages::FRAGMENT, uniform),
-            entry(6, ShaderStages::FRAGMENT, storage),
-            entry(7, ShaderStages::FRAGMENT, storage),
             entry(8, ShaderStages::FRAGMENT, storage),
             entry(9, ShaderStages::FRAGMENT, storage),
             entry(10, ShaderStages::FRAGMENT, texture(wgpu::TextureSampleType::Uint)),
@@ -348,10 +352,8 @@ fn bind_group(
             entry(1, wgpu::BindingResource::TextureView(sheen)),
             entry(2, wgpu::BindingResource::TextureView(ggx)),
             entry(3, resident.instances.binding()),
-            entry(4, resident.materials.binding()),
+            entry(4, resident.numbers.binding()),
             entry(5, resident.counts.binding()),
-            entry(6, resident.polygons.binding()),
-            entry(7, resident.light_vertices.binding()),
             entry(8, resident.punctual.binding()),
             entry(9, resident.light_points.binding()),
             entry(10, wgpu::BindingResource::TextureView(albedos)),
@@ -377,11 +379,13 @@ mod tests {
             sheen,
             emission,
             origin,
+            first_light,
             ambient,
             gain,
             sample,
             footprint,
-            seed
+            seed,
+            first_vertex
         });
         assert_eq!(differences(SURFACES_WGSL, "Frame", size_of::<Frame>(), members), [""; 0]);
     }

@@ -1,0 +1,14 @@
+// What every pixel reads of the scene, as numbers in a texture: the materials' factors, then the lights, then their outlines.
+//
+// Software drivers read buffers number by number for each pixel, and textures four numbers for several pixels at once. As a storage texture,
+// without levels, they read it faster still.
+
+// Texels in a row are two to this power.
+const NUMBERS_ROW = 13u;
+
+@group(0) @binding(4) var numbers_all: texture_storage_2d<rgba32uint, read>;
+
+// The texel of this number, in rows one after the other.
+fn numbers_at(index: u32) -> vec4u {
+    return textureLoad(numbers_all, vec2u(index & ((1u << NUMBERS_ROW) - 1u), index >> NUMBERS_ROW));
+}
