@@ -34,7 +34,7 @@ struct LightsCounts {
 }
 
 @group(0) @binding(5) var<uniform> lights_counts: LightsCounts;
-@group(0) @binding(8) var<storage, read> lights_punctual: array<LightsPunctual>;
+@group(0) @binding(6) var<storage, read> lights_punctual: array<LightsPunctual>;
 
 // Sums of radiance x form factor; those of the base weighted by what the sheen leaves of it.
 fn lights_incident(receiver: Receiver) -> LobesColors {
@@ -59,7 +59,8 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
     let end = select(lights_counts.polygons, lights_counts.quads, quads);
     var index = lights_next(receiver, first, end);
     while index < end {
-        let integrals = polygons_integrals(receiver, polygons_light(index), quads);
+        let polygon = emitters_polygon(index);
+        let integrals = polygons_integrals(receiver, polygon, quads);
         var form_factors = integrals.form_factors;
         var factors = patterns_seen(receiver, index, integrals.directions);
         if VARIANT_PRIOR_SHEEN {
@@ -67,8 +68,7 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
             form_factors.sheen = sum.form_factor;
             factors.sheen = sum.factor;
         }
-        let radiance = polygons_light(index).radiance;
-        incident = lights_add(receiver, incident, index, radiance, form_factors, factors, integrals.mean_cosine);
+        incident = lights_add(receiver, incident, index, polygon.radiance, form_factors, factors, integrals.mean_cosine);
         index = lights_next(receiver, index + 1u, end);
     }
     return incident;
@@ -79,9 +79,10 @@ fn lights_add_polygons(receiver: Receiver, before: LobesColors, quads: bool) -> 
 fn lights_next(receiver: Receiver, first: u32, end: u32) -> u32 {
     var index = first;
     while index < end {
-        let to_center = polygons_light(index).center - receiver.p_world;
-        let is_above = dot(receiver.normal, to_center) > -polygons_light(index).radius;
-        let is_facing = dot(polygons_light(index).normal, to_center) < 0.0 || polygons_light(index).two_sided != 0u;
+        let polygon = emitters_polygon(index);
+        let to_center = polygon.center - receiver.p_world;
+        let is_above = dot(receiver.normal, to_center) > -polygon.radius;
+        let is_facing = dot(polygon.normal, to_center) < 0.0 || polygon.two_sided != 0u;
         if is_above && is_facing {
             break;
         }

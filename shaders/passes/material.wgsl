@@ -16,26 +16,6 @@ const MATERIAL_LAYERING_GLTF = 0u;
 const MATERIAL_LAYERING_OPENPBR = 1u;
 const MATERIAL_LAYERING_RECIPROCAL = 2u;
 
-struct MaterialFactors {
-    base_color: vec4f,
-    sheen_color: vec3f,
-    sheen_weight: f32,
-    // Of a dielectric; specular is its value at grazing angles and scales it.
-    f0: vec3f,
-    specular: f32,
-    metallic: f32,
-    roughness: f32,
-    sheen_roughness: f32,
-    // alpha = roughness^exponent
-    alpha_exponent: f32,
-    normal_scale: f32,
-    occlusion_strength: f32,
-    alpha_cutoff: f32,
-    layering: u32,
-    // What is left of the base where layering is none of the constants above.
-    manual: f32,
-}
-
 // Rows of the matrices that take texture coordinates (u, v, 1) to each slot's; w = 1 in the first: of the second set.
 struct MaterialTransforms {
     rows: array<vec4f, 20>,
@@ -63,9 +43,6 @@ struct MaterialSurface {
     layering: u32,
     manual: f32,
 }
-
-// Texels of a material.
-const MATERIAL_TEXELS = 6u;
 
 @group(1) @binding(0) var material_base_color: texture_2d<f32>;
 @group(1) @binding(1) var material_metallic_roughness: texture_2d<f32>;
@@ -100,23 +77,9 @@ fn material_alpha_from_roughness(roughness: f32, exponent: f32) -> f32 {
     return pow(roughness, exponent);
 }
 
-fn material_factors(material: u32) -> MaterialFactors {
-    let first = MATERIAL_TEXELS * material;
-    let base = bitcast<vec4f>(numbers_at(first));
-    let sheen = bitcast<vec4f>(numbers_at(first + 1u));
-    let f0 = bitcast<vec4f>(numbers_at(first + 2u));
-    let shape = bitcast<vec4f>(numbers_at(first + 3u));
-    let rest = numbers_at(first + 4u);
-    let scales = bitcast<vec4f>(rest);
-    return MaterialFactors(
-        base, sheen.rgb, sheen.a, f0.rgb, f0.a, shape.x, shape.y, shape.z, shape.w, scales.x, scales.y, scales.z, rest.w,
-        bitcast<f32>(numbers_at(first + 5u).x),
-    );
-}
-
 // Without textures and vertex colours.
 fn material_plain(material: u32, emission: vec3f, normal: vec3f) -> MaterialSurface {
-    let factors = material_factors(material);
+    let factors = factors_of(material);
     return MaterialSurface(
         factors.base_color.rgb, factors.base_color.a, factors.metallic, factors.roughness, factors.f0,
         factors.specular, factors.sheen_color * factors.sheen_weight, factors.sheen_weight,
@@ -151,7 +114,7 @@ fn material_textured(
     }
     surface.base_color *= texel.color.rgb;
     if VARIANT_MASK {
-        let cutoff = material_factors(material).alpha_cutoff;
+        let cutoff = factors_of(material).alpha_cutoff;
         surface.samples = coverage_samples(texel, surface.opacity, color.a, cutoff, pixel, seed);
     }
     surface.opacity *= color.a * texel.color.a;
@@ -165,14 +128,14 @@ fn material_textured(
         let uv = material_uv(MATERIAL_NORMAL_MAP, tex_coords);
         let texel = texels_at(material_normal, material_normal_sampler, uv, pixel);
         surface.normal_length = 1.0 - (1.0 - texel.a) * (1.0 - texel.a);
-        let mapped = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(material_factors(material).normal_scale), 1.0);
+        let mapped = (2.0 * texel.xyz - 1.0) * vec3f(vec2f(factors_of(material).normal_scale), 1.0);
         let across = tangent.w * cross(normal, tangent.xyz);
         surface.normal = mapped.x * tangent.xyz + mapped.y * across + mapped.z * normal;
     }
     if material_has(MATERIAL_OCCLUSION) {
         let uv = material_uv(MATERIAL_OCCLUSION, tex_coords);
         let texel = texels_at(material_occlusion, material_occlusion_sampler, uv, pixel);
-        surface.occlusion = 1.0 + material_factors(material).occlusion_strength * (texel.r - 1.0);
+        surface.occlusion = 1.0 + factors_of(material).occlusion_strength * (texel.r - 1.0);
     }
     if material_has(MATERIAL_EMISSION) {
         let uv = material_uv(MATERIAL_EMISSION, tex_coords);
@@ -195,7 +158,7 @@ fn material_textured(
     if material_has(MATERIAL_SHEEN_ROUGHNESS) {
         let uv = material_uv(MATERIAL_SHEEN_ROUGHNESS, tex_coords);
         let texel = texels_at(material_sheen_roughness, material_sheen_roughness_sampler, uv, pixel);
-        let factors = material_factors(material);
+        let factors = factors_of(material);
         surface.sheen_alpha = material_alpha_from_roughness(factors.sheen_roughness * texel.a, factors.alpha_exponent);
     }
     if material_has(MATERIAL_SHEEN_WEIGHT) {

@@ -8,7 +8,11 @@ const NUMBERS_ROW = 13u;
 
 @group(0) @binding(4) var numbers_all: texture_storage_2d<rgba32uint, read>;
 
-// The texel of this number, in rows one after the other.
+// Where this texel is, in rows one after the other.
+fn numbers_place(index: u32) -> vec2u {
+    return vec2u(index & ((1u << NUMBERS_ROW) - 1u), index >> NUMBERS_ROW);
+}
+
 fn numbers_at(index: u32) -> vec4u {
-    return textureLoad(numbers_all, vec2u(index & ((1u << NUMBERS_ROW) - 1u), index >> NUMBERS_ROW));
+    return textureLoad(numbers_all, numbers_place(index));
 }

@@ -29,21 +29,21 @@ const PATTERNS_PLAIN = LobesColors(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 // The area of a plane that faces it in which a cosine lobe sees half of what it does, over the square of its distance.
 const PATTERNS_SEEN = LTC_PI;
 
-@group(0) @binding(11) var<storage, read> patterns_sheets: array<PatternsSheet>;
+@group(0) @binding(9) var<storage, read> patterns_sheets: array<PatternsSheet>;
 // Three numbers a texel.
-@group(0) @binding(12) var<storage, read> patterns_texels: array<f32>;
+@group(0) @binding(10) var<storage, read> patterns_texels: array<f32>;
 
 // The factors of a polygon's radiance in each lobe.
 fn patterns_seen(receiver: Receiver, polygon: u32, directions: LobesVectors) -> LobesColors {
     var seen = PATTERNS_PLAIN;
-    if VARIANT_PATTERNS && polygons_light(polygon).pattern != PATTERNS_NONE {
-        let sheet = patterns_sheets[polygons_light(polygon).pattern];
+    if VARIANT_PATTERNS && emitters_polygon(polygon).pattern != PATTERNS_NONE {
+        let sheet = patterns_sheets[emitters_polygon(polygon).pattern];
         // Lobe by lobe, in a loop: drivers take their time over code that stands there several times, also where it is then left out.
         var m_inv = LOBES_DIFFUSE;
         var direction = directions.diffuse;
         for (var lobe = 0u; lobe < 3u; lobe++) {
             var place = patterns_place(receiver, sheet, m_inv, direction);
-            place.texels = min(place.texels, polygons_light(polygon).pattern_texels);
+            place.texels = min(place.texels, emitters_polygon(polygon).pattern_texels);
             let factor = patterns_filtered(sheet, place);
             switch lobe {
                 case 0u: {

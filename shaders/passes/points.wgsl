@@ -1,7 +1,7 @@
 // Form factors of lobes that have no closed form: sums over points on a polygon light.
 
 // Points on each polygon; w is the area that each stands for.
-@group(0) @binding(9) var<storage, read> points_on_polygons: array<vec4f>;
+@group(0) @binding(7) var<storage, read> points_on_polygons: array<vec4f>;
 
 // Greatest ratio of what the points see of a light to its exact form factor.
 const POINTS_MOST = 2.0;
@@ -35,13 +35,13 @@ fn points_seen(receiver: Receiver, polygon: u32, index: u32) -> PointsSeen {
     let wo = receiver.local_from_world * (way * inverse);
     var seen: PointsSeen;
     if dot(receiver.up, wo) > 0.0 {
-        let solid_angle = point.w * abs(dot(polygons_light(polygon).normal, way)) * inverse * inverse * inverse;
+        let solid_angle = point.w * abs(dot(emitters_polygon(polygon).normal, way)) * inverse * inverse * inverse;
         seen.sheen = solid_angle * prior_sheens_value(receiver.prior_sheen, wo);
         seen.diffuse = solid_angle * max(wo.z, 0.0);
     }
     seen.factor = vec3f(1.0);
     if VARIANT_PATTERNS {
-        seen.factor = patterns_around(polygons_light(polygon).pattern, point.xyz, point.w);
+        seen.factor = patterns_around(emitters_polygon(polygon).pattern, point.xyz, point.w);
     }
     return seen;
 }
@@ -50,8 +50,8 @@ fn points_seen(receiver: Receiver, polygon: u32, index: u32) -> PointsSeen {
 fn points_picked(receiver: Receiver, polygon: u32, start: u32) -> PointsPick {
     var total = 0.0;
     var pick: PointsPick;
-    let end = polygons_light(polygon).end_point;
-    for (var index = polygons_light(polygon).first_point; index < end; index++) {
+    let end = emitters_polygon(polygon).end_point;
+    for (var index = emitters_polygon(polygon).first_point; index < end; index++) {
         let seen = points_seen(receiver, polygon, index);
         total += seen.sheen;
         if seen.sheen > 0.0 && randoms_one(randoms_of(start, index), receiver.sample) * total < seen.sheen {
@@ -67,8 +67,8 @@ fn points_sheen(receiver: Receiver, polygon: u32, diffuse: f32) -> PointsSum {
     var sheen = 0.0;
     var textured = vec3f(0.0);
     var diffuse_of_points = 0.0;
-    let end = select(0u, polygons_light(polygon).end_point, diffuse > 0.0);
-    for (var index = polygons_light(polygon).first_point; index < end; index++) {
+    let end = select(0u, emitters_polygon(polygon).end_point, diffuse > 0.0);
+    for (var index = emitters_polygon(polygon).first_point; index < end; index++) {
         let seen = points_seen(receiver, polygon, index);
         sheen += seen.sheen;
         textured += seen.sheen * seen.factor;

@@ -1,48 +1,5 @@
 // The walk around polygon lights: form factors of all lobes at once.
 
-struct PolygonsLight {
-    radiance: vec3f,
-    two_sided: u32,
-    normal: vec3f,
-    first_vertex: u32,
-    // A sphere around all vertices.
-    center: vec3f,
-    radius: f32,
-    end_vertex: u32,
-    // In points_on_polygons.
-    first_point: u32,
-    end_point: u32,
-    // In Drawn::lights.
-    light: u32,
-    // Its convex parts, as outlines, too.
-    first_part_vertex: u32,
-    end_part_vertex: u32,
-    // In patterns_sheets, else PATTERNS_NONE; and how many texels there are in the rectangle of it that is shown.
-    pattern: u32,
-    pattern_texels: f32,
-}
-
-// Texels of a light.
-const POLYGONS_TEXELS = 5u;
-
-fn polygons_light(index: u32) -> PolygonsLight {
-    let first = frame_now.first_light + POLYGONS_TEXELS * index;
-    let glow = numbers_at(first);
-    let plane = numbers_at(first + 1u);
-    let sphere = bitcast<vec4f>(numbers_at(first + 2u));
-    let ranges = numbers_at(first + 3u);
-    let parts = numbers_at(first + 4u);
-    return PolygonsLight(
-        bitcast<vec3f>(glow.xyz), glow.w, bitcast<vec3f>(plane.xyz), plane.w, sphere.xyz, sphere.w, ranges.x, ranges.y,
-        ranges.z, ranges.w, parts.x, parts.y, parts.z, bitcast<f32>(parts.w),
-    );
-}
-
-// Outlines stand one after another; w = 1 marks the first vertex of each, which comes again at its end with w = -1.
-fn polygons_vertex(index: u32) -> vec4f {
-    return bitcast<vec4f>(numbers_at(frame_now.first_vertex + index));
-}
-
 // The error of interpolated positions, as a share of the largest coordinate: a few roundings of f32. Points no further
 // from a light's plane are in it, so that a light does not shine on itself.
 const POLYGONS_POSITION_ERROR = 1e-6;
@@ -142,8 +99,8 @@ fn polygons_begin(walk: PolygonsWalk, vertex: vec3f, is_begun: bool) -> Polygons
 }
 
 // is_quad: the light is one outline of four vertices. Unrolled, with loads from fixed places, its walk takes two thirds of the time.
-fn polygons_integrals(receiver: Receiver, light: PolygonsLight, is_quad: bool) -> PolygonsIntegrals {
-    let to_vertex = polygons_vertex(light.first_vertex).xyz - receiver.p_world;
+fn polygons_integrals(receiver: Receiver, light: EmittersPolygon, is_quad: bool) -> PolygonsIntegrals {
+    let to_vertex = emitters_vertex(light.first_vertex).xyz - receiver.p_world;
     let side = ltc_side(light.normal, to_vertex, light.two_sided != 0u);
     let size = abs(receiver.p_world) + abs(to_vertex);
     let error = POLYGONS_POSITION_ERROR * max(size.x, max(size.y, size.z));
@@ -165,7 +122,7 @@ fn polygons_integrals(receiver: Receiver, light: PolygonsLight, is_quad: bool) -
     return integrals;
 }
 
-fn polygons_walk_around(receiver: Receiver, light: PolygonsLight, is_quad: bool) -> PolygonsWalk {
+fn polygons_walk_around(receiver: Receiver, light: EmittersPolygon, is_quad: bool) -> PolygonsWalk {
     var walk: PolygonsWalk;
     walk.turns = PolygonsTurns(LTC_LEVEL, LTC_LEVEL);
     if !is_quad || VARIANT_NORMAL_MAP {
@@ -180,14 +137,14 @@ fn polygons_walk_around(receiver: Receiver, light: PolygonsLight, is_quad: bool)
 }
 
 fn polygons_local(receiver: Receiver, index: u32) -> vec3f {
-    return receiver.local_from_world * (polygons_vertex(index).xyz - receiver.p_world);
+    return receiver.local_from_world * (emitters_vertex(index).xyz - receiver.p_world);
 }
 
 // Any number of outlines and vertices.
-fn polygons_walk_all(start: PolygonsWalk, receiver: Receiver, light: PolygonsLight) -> PolygonsWalk {
+fn polygons_walk_all(start: PolygonsWalk, receiver: Receiver, light: EmittersPolygon) -> PolygonsWalk {
     var walk = start;
     for (var index = light.first_vertex; index < light.end_vertex; index++) {
-        let mark = polygons_vertex(index).w;
+        let mark = emitters_vertex(index).w;
         let p_local = polygons_local(receiver, index);
         if mark > 0.0 {
             walk = polygons_begin(walk, p_local, !VARIANT_NORMAL_MAP);

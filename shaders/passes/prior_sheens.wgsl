@@ -11,7 +11,7 @@ const PRIOR_SHEENS_LEAST_ALPHA = 0.03;
 // Logarithms of albedos, as their bits: every adapter draws integers of 32 bits, but some draw no such floats.
 // Node k of n sits at k/(n-1): alpha = least + (1 - least) x^2 along x; along y mu = (p (2 - p))^4 for each model in turn.
 override PRIOR_SHEENS_NODES: u32 = 2;
-@group(0) @binding(10) var prior_sheens_log_albedos: texture_2d<u32>;
+@group(0) @binding(8) var prior_sheens_log_albedos: texture_2d<u32>;
 
 // A model as it is seen from one direction.
 struct PriorSheensView {

@@ -14,9 +14,9 @@ struct SamplesWalk {
 fn samples_direction(receiver: Receiver, light: u32, m_inv: mat3x3f, form_factor: f32, numbers: vec2f) -> vec3f {
     var walk: SamplesWalk;
     walk.fan = ltc_sample_begin(numbers.x, form_factor);
-    let end = polygons_light(light).end_part_vertex;
-    for (var index = polygons_light(light).first_part_vertex; index < end; index++) {
-        let mark = polygons_vertex(index).w;
+    let end = emitters_polygon(light).end_part_vertex;
+    for (var index = emitters_polygon(light).first_part_vertex; index < end; index++) {
+        let mark = emitters_vertex(index).w;
         let p_local = polygons_local(receiver, index);
         if mark > 0.0 {
             walk = samples_begin(walk, p_local, !VARIANT_NORMAL_MAP);

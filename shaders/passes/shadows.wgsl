@@ -88,8 +88,8 @@ fn shadows_blocked(receiver: Receiver, origin: ShadowsOrigin) -> vec3f {
 fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {
     let start = randoms_of(receiver.seed, pick.light);
     let numbers = randoms_three(start, receiver.sample);
-    let radiance = polygons_light(pick.light).radiance;
-    let light = polygons_light(pick.light).light;
+    let polygon = emitters_polygon(pick.light);
+    let radiance = polygon.radiance;
     let factors = picks_factors(pick);
     let whole = picks_per_form_factor(receiver, radiance, factors, pick.base_weight);
     // The lobe by what it brings.
@@ -98,7 +98,7 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept
     if VARIANT_PRIOR_SHEEN && is_sheen {
         let point = points_picked(receiver, pick.light, start);
         let blocked = pick.total / whole.sheen * point.factor * radiance * receiver.colors.sheen;
-        return shadows_ray(receiver, origin, filters_normalize(point.way), length(point.way), light, blocked, blocked);
+        return shadows_ray(receiver, origin, filters_normalize(point.way), length(point.way), polygon.light, blocked, blocked);
     }
     var m_inv = LOBES_DIFFUSE;
     var form_factor = pick.worths.diffuse / whole.diffuse;
@@ -120,14 +120,13 @@ fn shadows_to_polygon(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept
     let share = select(0.0, pick.total / density, density > 0.0);
     let blocked = share * shadows_scattered(receiver, densities, radiance, factors, pick.base_weight);
     var arriving = blocked;
-    if VARIANT_PATTERNS && polygons_light(pick.light).pattern != PATTERNS_NONE {
+    if VARIANT_PATTERNS && polygon.pattern != PATTERNS_NONE {
         let even = share * shadows_scattered(receiver, densities, radiance, PATTERNS_PLAIN, pick.base_weight);
-        arriving = even * patterns_factor(receiver, polygons_light(pick.light).pattern, wo);
+        arriving = even * patterns_factor(receiver, polygon.pattern, wo);
     }
     let direction = wo * receiver.local_from_world;
-    let normal = polygons_light(pick.light).normal;
-    let to_vertex = polygons_vertex(polygons_light(pick.light).first_vertex).xyz - receiver.p_world;
-    return shadows_ray(receiver, origin, direction, dot(normal, to_vertex) / dot(normal, direction), light, blocked, arriving);
+    let to_vertex = emitters_vertex(polygon.first_vertex).xyz - receiver.p_world;
+    return shadows_ray(receiver, origin, direction, dot(polygon.normal, to_vertex) / dot(polygon.normal, direction), polygon.light, blocked, arriving);
 }
 
 fn shadows_to_punctual(receiver: Receiver, origin: ShadowsOrigin, pick: PicksKept) -> ShadowsRay {

@@ -164,9 +164,9 @@ pub async fn open(
 /// The limits that a device must have to draw scenes.
 pub fn needed_limits() -> wgpu::Limits {
     wgpu::Limits {
-        // Materials, and six of the lights.
+        // Of the lights.
         max_storage_buffers_per_shader_stage: 4,
-        // What stands in the way of light.
+        // What every pixel reads of a scene, and what stands in the way of light.
         max_storage_textures_per_shader_stage: 2,
         // Larger scenes need more, and say so.
         max_storage_buffer_binding_size: 1 << 24,

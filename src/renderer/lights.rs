@@ -9,7 +9,7 @@ use super::patterns::{GpuSheet, Patterns, Shown};
 use crate::math::quadrature::gauss_legendre;
 use crate::scene::{Drawn, Light, Polygon, PunctualKind, PunctualLight};
 
-/// `PolygonsLight` of `polygons.wgsl`.
+/// `EmittersPolygon` of `emitters.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuPolygon {
@@ -269,7 +269,7 @@ mod tests {
         });
         let counts = members!(GpuCounts { quads, polygons, punctual });
         for (name, size, members) in [
-            ("PolygonsLight", size_of::<GpuPolygon>(), &polygon[..]),
+            ("EmittersPolygon", size_of::<GpuPolygon>(), &polygon[..]),
             ("LightsPunctual", size_of::<GpuPunctual>(), punctual),
             ("LightsCounts", size_of::<GpuCounts>(), counts),
         ] {

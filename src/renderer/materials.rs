@@ -5,7 +5,7 @@ use glam::{Affine2, Vec3, Vec4};
 
 use crate::scene::{AlphaMode, Layering, Material, SheenModel, TextureSlot};
 
-/// `MaterialFactors` of `material.wgsl`.
+/// `Factors` of `factors.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuMaterial {
@@ -163,7 +163,7 @@ mod tests {
             layering,
             manual
         });
-        assert_eq!(differences(SURFACES_WGSL, "MaterialFactors", size_of::<GpuMaterial>(), members), [""; 0]);
+        assert_eq!(differences(SURFACES_WGSL, "Factors", size_of::<GpuMaterial>(), members), [""; 0]);
     }
 
     #[test]

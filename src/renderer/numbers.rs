@@ -11,7 +11,7 @@ pub(super) type Words = [u32; 4];
 
 pub(super) const FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 
-/// Two to the power of `NUMBERS_ROW` of `numbers.wgsl` and of `BLOCKERS_ROW` of `blockers.wgsl`: texels in a row.
+/// Texels in a row: two to the power of `NUMBERS_ROW` of `numbers.wgsl`.
 pub(super) const ROW: usize = 1 << 13;
 
 /// Rows of so many texels.
@@ -33,13 +33,13 @@ pub(super) fn numbers(device: &Device, label: &str, rows: usize) -> Texture {
     })
 }
 
-/// Writes whole rows from one on; what is beyond the texels does not count.
+/// Writes rows from one on: whole ones where there are several; what is beyond the texels does not count.
 pub(super) fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texels: Vec<Words>) {
-    let rows = rows(texels.len());
+    let (rows, width) = (rows(texels.len()), texels.len().min(ROW));
     if rows == 0 {
         return;
     }
-    texels.resize(rows * ROW, [0; 4]);
+    texels.resize(rows * width, [0; 4]);
     queue.write_texture(
         wgpu::TexelCopyTextureInfo {
             origin: wgpu::Origin3d { x: 0, y: first_row as u32, z: 0 },
@@ -48,10 +48,10 @@ pub(super) fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texe
         bytemuck::cast_slice(&texels),
         wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some((ROW * size_of::<Words>()) as u32),
+            bytes_per_row: Some((width * size_of::<Words>()) as u32),
             rows_per_image: None,
         },
-        wgpu::Extent3d { width: ROW as u32, height: rows as u32, depth_or_array_layers: 1 },
+        wgpu::Extent3d { width: width as u32, height: rows as u32, depth_or_array_layers: 1 },
     );
 }
 
@@ -77,7 +77,8 @@ impl TrackedNumbers {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let rows = rows(texels.len());
         if rows > limit as usize {
-            let [bytes, limit] = [texels.len(), limit as usize * ROW].map(|texels| (texels * size_of::<Words>()) as u64);
+            let [bytes, limit] =
+                [texels.len(), limit as usize * ROW].map(|texels| (texels * size_of::<Words>()) as u64);
             return Err(RenderError::TooLarge { what: what.to_owned(), bytes, limit });
         }
         let texture = numbers(&gpu.device, what, rows);

@@ -27,7 +27,7 @@ pub(super) struct Shown<'a> {
     pub polygon: Cow<'a, Polygon>,
     /// Of the light's radiance.
     pub factor: Vec3,
-    /// `PolygonsLight::pattern` and `pattern_texels` of `polygons.wgsl`.
+    /// `EmittersPolygon::pattern` and `pattern_texels` of `emitters.wgsl`.
     pub pattern: u32,
     pub texels: f32,
     /// Of the points on the polygon.

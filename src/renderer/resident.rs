@@ -100,12 +100,7 @@ impl Resident {
         let (numbers, first) = contents.numbers();
         self.first = first;
         let mut grown = self.numbers.write(gpu, NUMBERS, numbers)?;
-        let buffers = [
-            &mut self.instances,
-            &mut self.punctual,
-            &mut self.light_points,
-            &mut self.sheets,
-        ];
+        let buffers = [&mut self.instances, &mut self.punctual, &mut self.light_points, &mut self.sheets];
         for (buffer, stored) in buffers.into_iter().zip(contents.stored()) {
             grown |= written(gpu, buffer, stored)?;
         }

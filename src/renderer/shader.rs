@@ -12,9 +12,11 @@ macro_rules! surfaces {
             include_str!("../../shaders/ggx.wgsl"),
             // What a pipeline is made for.
             include_str!("../../shaders/passes/variant.wgsl"),
-            // What a frame is drawn with.
+            // What a frame is drawn with; what every pixel reads of the scene.
             include_str!("../../shaders/passes/frame.wgsl"),
             include_str!("../../shaders/passes/numbers.wgsl"),
+            include_str!("../../shaders/passes/factors.wgsl"),
+            include_str!("../../shaders/passes/emitters.wgsl"),
             // Textures, looked up.
             include_str!("../../shaders/passes/texels.wgsl"),
             // What of a pixel is covered, and what shading is filtered over it.

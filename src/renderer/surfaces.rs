@@ -328,11 +328,11 @@ fn bind_group_layout(device: &Device) -> BindGroupLayout {
             entry(3, ShaderStages::VERTEX, storage),
             entry(4, ShaderStages::FRAGMENT, numbers::binding()),
             entry(5, ShaderStages::FRAGMENT, uniform),
-            entry(8, ShaderStages::FRAGMENT, storage),
+            entry(6, ShaderStages::FRAGMENT, storage),
+            entry(7, ShaderStages::FRAGMENT, storage),
+            entry(8, ShaderStages::FRAGMENT, texture(wgpu::TextureSampleType::Uint)),
             entry(9, ShaderStages::FRAGMENT, storage),
-            entry(10, ShaderStages::FRAGMENT, texture(wgpu::TextureSampleType::Uint)),
-            entry(11, ShaderStages::FRAGMENT, storage),
-            entry(12, ShaderStages::FRAGMENT, storage),
+            entry(10, ShaderStages::FRAGMENT, storage),
         ],
     })
 }
@@ -354,11 +354,11 @@ fn bind_group(
             entry(3, resident.instances.binding()),
             entry(4, resident.numbers.binding()),
             entry(5, resident.counts.binding()),
-            entry(8, resident.punctual.binding()),
-            entry(9, resident.light_points.binding()),
-            entry(10, wgpu::BindingResource::TextureView(albedos)),
-            entry(11, resident.sheets.binding()),
-            entry(12, resident.pattern_texels.binding()),
+            entry(6, resident.punctual.binding()),
+            entry(7, resident.light_points.binding()),
+            entry(8, wgpu::BindingResource::TextureView(albedos)),
+            entry(9, resident.sheets.binding()),
+            entry(10, resident.pattern_texels.binding()),
         ],
     })
 }

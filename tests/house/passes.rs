@@ -9,13 +9,17 @@ use std::path::Path;
 use super::{files, read, root};
 
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
-pub const FLOORS: [&[&str]; 22] = [
+pub const FLOORS: [&[&str]; 24] = [
     // What people copy.
     &["ltc", "ltc_sample", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
     // What a frame is drawn with.
     &["passes/frame"],
+    // What every pixel reads of the scene, as numbers:
+    &["passes/numbers"],
+    // the materials' factors, the polygons that emit light.
+    &["passes/factors", "passes/emitters"],
     // Textures, looked up.
     &["passes/texels"],
     // What of a pixel is covered,
