@@ -17,13 +17,6 @@ struct AccumulationMeans {
 @group(0) @binding(3) var accumulation_mean_radiance: texture_2d<f32>;
 @group(0) @binding(4) var accumulation_mean_blocked: texture_2d<f32>;
 
-// One triangle that covers the target.
-@vertex
-fn accumulation_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
-}
-
 @fragment
 fn accumulation_fragment(@builtin(position) position: vec4f) -> AccumulationMeans {
     let pixel = vec2u(position.xy);

@@ -25,12 +25,6 @@ struct DenoiseUniforms {
 @group(0) @binding(3) var denoise_guide: texture_2d<f32>;
 @group(0) @binding(4) var denoise_before: texture_2d<f32>;
 
-@vertex
-fn denoise_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
-}
-
 @fragment
 fn denoise_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let center = vec2i(position.xy);

@@ -3,16 +3,12 @@
 
 // Whether there are filtered shares of radiance that are left; otherwise what is known to be blocked is subtracted.
 override DISPLAY_FILTERED: bool = false;
-// Whether what is shown has more pixels than what was drawn.
-override DISPLAY_SCALED: bool = false;
 // What a pipeline shows with. 0: clamped; 1: Khronos PBR Neutral; 2: AgX.
 override DISPLAY_TONE_CURVE: u32 = 0;
 
 struct DisplayUniforms {
     // The pixel of the output that shows the radiance's first.
     origin: vec2u,
-    // Pixels that were drawn for each that is shown, across and down.
-    scale: vec2f,
     // What exposed radiance is multiplied by: its exposure may have changed since.
     gain: f32,
 }
@@ -23,13 +19,6 @@ struct DisplayUniforms {
 // Of a frame with shadows: what is blocked, and the shares that are left.
 @group(0) @binding(3) var display_blocked: texture_2d<f32>;
 @group(0) @binding(4) var display_shares: texture_2d<f32>;
-
-// One triangle that covers the target.
-@vertex
-fn display_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
-}
 
 // Khronos PBR Neutral Tone Mapper, specification of 2024.
 fn display_neutral(radiance: vec3f) -> vec3f {
@@ -100,25 +89,10 @@ fn display_srgb(linear: vec3f) -> vec4f {
     return vec4f(select(curve, 12.92 * linear, linear <= vec3f(0.0031308)), 1.0);
 }
 
-// What a picture, which may have fewer pixels, has where this pixel is shown.
-fn display_at(picture: texture_2d<f32>, pixel: vec2u) -> vec4f {
-    if !DISPLAY_SCALED {
-        return textureLoad(picture, pixel, 0);
-    }
-    let last = vec2f(textureDimensions(picture) - 1u);
-    let at = clamp((vec2f(pixel) + 0.5) * display_uniforms.scale - 0.5, vec2f(0.0), last);
-    let low = vec2u(at);
-    let high = min(low + 1u, vec2u(last));
-    let weight = at - vec2f(low);
-    let upper = mix(textureLoad(picture, low, 0), textureLoad(picture, vec2u(high.x, low.y), 0), weight.x);
-    let lower = mix(textureLoad(picture, vec2u(low.x, high.y), 0), textureLoad(picture, high, 0), weight.x);
-    return mix(upper, lower, weight.y);
-}
-
 // The share of a pixel's radiance that is left.
 fn display_share(pixel: vec2u) -> vec3f {
     if DISPLAY_FILTERED {
-        return display_at(display_shares, pixel).rgb;
+        return textureLoad(display_shares, pixel, 0).rgb;
     }
     return vec3f(1.0);
 }
@@ -134,7 +108,7 @@ fn display_shared(radiance: vec4f, share: vec3f) -> vec4f {
 @fragment
 fn display_shown_single(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    return display_srgb(display_seen(display_shared(display_at(display_radiance, pixel), display_share(pixel))));
+    return display_srgb(display_seen(display_shared(textureLoad(display_radiance, pixel, 0), display_share(pixel))));
 }
 
 // Each sample goes through the tone curve before the mean is taken: the edge of a bright light stays smooth.
@@ -167,11 +141,11 @@ fn display_measured_multisampled(@builtin(position) position: vec4f) -> @locatio
 // What is left of a pixel's radiance, and the share of it that is lit.
 fn display_left(position: vec4f) -> vec4f {
     let pixel = vec2u(position.xy) - display_uniforms.origin;
-    let radiance = display_at(display_radiance, pixel);
+    let radiance = textureLoad(display_radiance, pixel, 0);
     if DISPLAY_FILTERED {
         return display_shared(radiance, display_share(pixel));
     }
-    let left = max(radiance.rgb - display_at(display_blocked, pixel).rgb, vec3f(0.0));
+    let left = max(radiance.rgb - textureLoad(display_blocked, pixel, 0).rgb, vec3f(0.0));
     return vec4f(left * mix(1.0, display_uniforms.gain, radiance.a), radiance.a);
 }
 

@@ -32,13 +32,6 @@ fn outline_mark(placed: OutlineVarying) -> @location(0) vec4f {
     return vec4f(placed.mark, 0.0, 0.0, 1.0);
 }
 
-// One triangle that covers the target.
-@vertex
-fn outline_cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
-}
-
 // A light pixel within the border and a dark one outside it, so that one of them stands out before anything. Where the
 // picture ends there is no border.
 @fragment

@@ -18,12 +18,6 @@ struct ReprojectionUniforms {
 @group(0) @binding(2) var reprojection_guide: texture_2d<f32>;
 @group(0) @binding(3) var reprojection_shares: texture_2d<f32>;
 
-@vertex
-fn reprojection_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
-}
-
 // Shares, each weighted, and the weights.
 struct ReprojectionSum {
     shares: vec3f,

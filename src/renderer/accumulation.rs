@@ -5,6 +5,7 @@ use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderP
 use wgpu::{TextureUsages, TextureView};
 
 use super::fullscreen;
+use super::shader::module;
 use super::targets::{ShadowedTargets, attachment};
 use super::tracked_buffer::TrackedBuffer;
 
@@ -41,12 +42,8 @@ pub(super) struct AccumulationPass {
 impl AccumulationPass {
     pub fn new(device: &Device, format: TextureFormat) -> Self {
         let layout = fullscreen::layout(device, "accumulation", true, &[1, 2, 3, 4].map(|binding| (binding, false)));
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("accumulation"),
-            source: wgpu::ShaderSource::Wgsl(ACCUMULATION_WGSL.into()),
-        });
-        let entry_points = ["accumulation_vertex", "accumulation_fragment"];
-        let pipeline = fullscreen::pipeline(device, (&layout, &shader), entry_points, &[], &[format; 2]);
+        let shader = module(device, "accumulation", ACCUMULATION_WGSL);
+        let pipeline = fullscreen::pipeline(device, (&layout, &shader), "accumulation_fragment", &[], &[format; 2]);
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "accumulation", &uniforms, BufferUsages::UNIFORM);
         Self { layout, pipeline, uniforms }

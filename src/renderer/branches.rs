@@ -12,6 +12,8 @@ use wgpu::naga::{AddressSpace, Block, Expression, Function, Handle, Module, Span
 use super::accumulation::ACCUMULATION_WGSL;
 use super::denoise::DENOISE_WGSL;
 use super::display::DISPLAY_WGSL;
+use super::enlargement::ENLARGEMENT_WGSL;
+use super::fullscreen::FULLSCREEN_WGSL;
 use super::outline::OUTLINE_WGSL;
 use super::reprojection::REPROJECTION_WGSL;
 use super::shader::{SHADOWED_WGSL, SURFACES_WGSL};
@@ -303,8 +305,17 @@ fn is_bound_of_a_loop(accept: &Block, reject: &Block) -> bool {
 
 #[test]
 fn no_pass_picks_a_variant_by_a_uniform() {
-    let passes =
-        [SURFACES_WGSL, SHADOWED_WGSL, ACCUMULATION_WGSL, DENOISE_WGSL, REPROJECTION_WGSL, DISPLAY_WGSL, OUTLINE_WGSL];
+    let passes = [
+        SURFACES_WGSL,
+        SHADOWED_WGSL,
+        ACCUMULATION_WGSL,
+        DENOISE_WGSL,
+        REPROJECTION_WGSL,
+        DISPLAY_WGSL,
+        ENLARGEMENT_WGSL,
+        FULLSCREEN_WGSL,
+        OUTLINE_WGSL,
+    ];
     for pass in passes {
         assert_eq!(variants_by_uniform(pass), [""; 0]);
     }

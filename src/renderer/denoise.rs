@@ -7,6 +7,7 @@ use wgpu::{TextureFormat, TextureUsages, TextureView};
 use super::UNFILTERED;
 use super::accumulation::Means;
 use super::fullscreen;
+use super::shader::module;
 use super::targets::attachment;
 use super::tracked_buffer::TrackedBuffer;
 
@@ -65,20 +66,11 @@ impl Shares {
 impl DenoisePass {
     pub fn new(device: &Device) -> Self {
         let layout = fullscreen::layout(device, "denoise", true, &[1, 2, 3, 4].map(|binding| (binding, false)));
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("denoise"),
-            source: wgpu::ShaderSource::Wgsl(DENOISE_WGSL.into()),
-        });
+        let shader = module(device, "denoise", DENOISE_WGSL);
         let pipeline = |again: bool| {
             let again = usize::from(again);
             let constants = [("DENOISE_STEP", STEPS[again].into()), ("DENOISE_AGAIN", again as f64)];
-            fullscreen::pipeline(
-                device,
-                (&layout, &shader),
-                ["denoise_vertex", "denoise_fragment"],
-                &constants,
-                &[FORMAT],
-            )
+            fullscreen::pipeline(device, (&layout, &shader), "denoise_fragment", &constants, &[FORMAT])
         };
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "denoise", &uniforms, BufferUsages::UNIFORM);

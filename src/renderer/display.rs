@@ -7,7 +7,9 @@ use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderP
 use wgpu::{ShaderModule, TextureFormat, TextureUsages, TextureView};
 
 use super::accumulation::Means;
+use super::enlargement::Enlargement;
 use super::fullscreen;
+use super::shader::module;
 use super::targets::{Targets, attachment};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::Rect;
@@ -35,7 +37,6 @@ pub enum Showing {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniforms {
     origin: [u32; 2],
-    scale: [f32; 2],
     gain: f32,
     padding: u32,
 }
@@ -101,6 +102,8 @@ pub struct DisplayPass {
     uniforms: TrackedBuffer,
     /// Bound where there are no shares.
     nothing: TextureView,
+    /// For what is shown in another size.
+    enlargement: Option<Enlargement>,
 }
 
 /// What a pipeline is made for.
@@ -109,7 +112,6 @@ struct Variant {
     /// `DISPLAY_TONE_CURVE` of `display.wgsl`.
     tone_curve: u32,
     filtered: bool,
-    scaled: bool,
 }
 
 impl DisplayPass {
@@ -121,24 +123,21 @@ impl DisplayPass {
             Source::Shadowed => &[(1, false), (3, false), (4, false)],
         };
         let layout = fullscreen::layout(device, "display", true, textures);
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("display"),
-            source: wgpu::ShaderSource::Wgsl(DISPLAY_WGSL.into()),
-        });
+        let shader = module(device, "display", DISPLAY_WGSL);
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "display uniforms", &uniforms, BufferUsages::UNIFORM);
         let nothing =
             attachment(device, "no shares", ([1; 2], 1, TextureFormat::Rgba16Float), TextureUsages::TEXTURE_BINDING);
-        Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms, nothing }
+        Self { shader, layout, source, output, measured, made: HashMap::new(), uniforms, nothing, enlargement: None }
     }
 
     /// How many pipelines there are.
     pub fn made(&self) -> usize {
-        self.made.len()
+        self.made.len() + usize::from(self.enlargement.is_some())
     }
 
-    /// Shows what was drawn in the rectangle `place` of the output, which may be of another size unless it is
-    /// multisampled. What lies around it becomes black.
+    /// Shows what was drawn in the rectangle `place` of the output, which may be of another size where it is not measured. What lies around
+    /// it becomes black.
     pub fn encode(
         &mut self,
         (device, queue): (&Device, &Queue),
@@ -147,27 +146,37 @@ impl DisplayPass {
         (output, place): (&TextureView, Rect),
         showing: Showing,
     ) {
-        let Rect { x, y, width, height } = place;
-        let scale = |size: &[u32; 2]| [size[0] as f32 / width as f32, size[1] as f32 / height as f32];
         let binding = if self.source == Source::Multisampled { 2 } else { 1 };
-        let (textures, scale, gain, filtered): (Vec<(u32, &TextureView)>, _, _, _) = match drawn {
+        let (textures, size, gain, filtered): (Vec<(u32, &TextureView)>, _, _, _) = match drawn {
             Drawn::Targets(targets) => {
-                (vec![(binding, &targets.radiance), (4, &self.nothing)], scale(&targets.size), 1.0, false)
+                (vec![(binding, &targets.radiance), (4, &self.nothing)], targets.size, 1.0, false)
             }
             Drawn::Shared { targets, shares, gain } => {
-                (vec![(binding, &targets.radiance), (4, shares)], scale(&targets.size), *gain, true)
+                (vec![(binding, &targets.radiance), (4, shares)], targets.size, *gain, true)
             }
             Drawn::Shadowed { means, shares, size, gain } => {
                 let textures = [(1, &means.radiance), (3, &means.blocked), (4, shares.unwrap_or(&means.blocked))];
-                (textures.to_vec(), scale(size), *gain, shares.is_some())
+                (textures.to_vec(), *size, *gain, shares.is_some())
             }
         };
-        let uniforms = Uniforms { origin: [x, y], scale, gain, padding: 0 };
+        // In another size it is shown through a picture of its own size.
+        let coarse = ([place.width, place.height] != size).then(|| {
+            let enlargement = self.enlargement.get_or_insert_with(|| Enlargement::new(device, self.output));
+            enlargement.picture(device, size)
+        });
+        let (target, part) = coarse.as_ref().map_or((output, place), |coarse| (coarse, Rect::full(size)));
+        let Rect { x, y, width, height } = part;
+        let uniforms = Uniforms { origin: [x, y], gain, padding: 0 };
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));
         let bind_group = fullscreen::bind_group(device, &self.layout, Some(self.uniforms.binding()), &textures);
-        let variant = Variant { tone_curve: showing.tone_curve(), filtered, scaled: scale != [1.0; 2] };
+        let variant = Variant { tone_curve: showing.tone_curve(), filtered };
         let pipeline = self.pipeline(device, variant);
-        fullscreen::run(encoder, (pipeline, &bind_group), &[output], Some([x, y, width, height]));
+        fullscreen::run(encoder, (pipeline, &bind_group), &[target], Some([x, y, width, height]));
+        if coarse.is_some()
+            && let Some(enlargement) = &mut self.enlargement
+        {
+            enlargement.encode((device, queue), encoder, (output, place));
+        }
     }
 
     fn pipeline(&mut self, device: &Device, variant: Variant) -> &RenderPipeline {
@@ -175,10 +184,9 @@ impl DisplayPass {
             let constants = [
                 ("DISPLAY_TONE_CURVE", f64::from(variant.tone_curve)),
                 ("DISPLAY_FILTERED", f64::from(u8::from(variant.filtered))),
-                ("DISPLAY_SCALED", f64::from(u8::from(variant.scaled))),
             ];
-            let entry_points = ["display_vertex", entry_point(self.measured, self.source)];
-            fullscreen::pipeline(device, (&self.layout, &self.shader), entry_points, &constants, &[self.output])
+            let fragment = entry_point(self.measured, self.source);
+            fullscreen::pipeline(device, (&self.layout, &self.shader), fragment, &constants, &[self.output])
         })
     }
 }
@@ -202,7 +210,7 @@ mod tests {
 
     #[test]
     fn the_uniforms_stand_as_the_shader_reads_them() {
-        let members = members!(Uniforms { origin, scale, gain });
+        let members = members!(Uniforms { origin, gain });
         assert_eq!(differences(DISPLAY_WGSL, "DisplayUniforms", size_of::<Uniforms>(), members), [""; 0]);
     }
 }

@@ -3,6 +3,11 @@
 use wgpu::{BindGroup, BindGroupLayout, CommandEncoder, Device, LoadOp, RenderPipeline, ShaderModule};
 use wgpu::{TextureFormat, TextureView};
 
+use super::shader::module;
+
+/// The WGSL of their vertices.
+pub(super) const FULLSCREEN_WGSL: &str = include_str!("../../shaders/passes/fullscreen.wgsl");
+
 /// A layout for the fragment stage: a uniform where there is one, at 0; then textures that are not filtered, at these bindings, multisampled
 /// or not.
 pub(super) fn layout(device: &Device, label: &str, uniform: bool, textures: &[(u32, bool)]) -> BindGroupLayout {
@@ -38,11 +43,11 @@ pub(super) fn bind_group(
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }
 
-/// A pipeline for targets of these formats, of a module's entry points for vertices and for fragments.
+/// A pipeline for targets of these formats, of a module's entry point for fragments.
 pub(super) fn pipeline(
     device: &Device,
     (layout, shader): (&BindGroupLayout, &ShaderModule),
-    [vertex, fragment]: [&str; 2],
+    fragment: &str,
     constants: &[(&str, f64)],
     formats: &[TextureFormat],
 ) -> RenderPipeline {
@@ -57,9 +62,9 @@ pub(super) fn pipeline(
         label: Some(fragment),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some(vertex),
-            compilation_options: compilation_options.clone(),
+            module: &module(device, "fullscreen", FULLSCREEN_WGSL),
+            entry_point: Some("fullscreen_vertex"),
+            compilation_options: Default::default(),
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),

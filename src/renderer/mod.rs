@@ -13,6 +13,7 @@ mod denoise;
 pub mod device;
 mod display;
 mod draws;
+mod enlargement;
 mod fullscreen;
 #[cfg(test)]
 mod layout;
@@ -311,18 +312,13 @@ impl Renderer {
         if self.latest == Latest::Unshadowed { 1 } else { self.shadowed.samples() }
     }
 
-    /// Whether pictures with these settings may be shown in another size than they are drawn in.
-    pub fn is_scaled(&self, settings: &Settings) -> bool {
-        self.has_shadows(settings) || self.format.radiance.samples == 1
-    }
-
     /// How many pipelines and targets there have been so far: where it grows, a frame took longer than others will.
     pub fn made(&self) -> usize {
         self.surfaces.made() + self.display.made() + self.targets_made + self.shadowed.made()
     }
 
     /// The last pass: shows what was drawn last, which was exposed for the same `showing`, in a rectangle of the output, which may be of
-    /// another size, but for multisampled pictures without shadows. Other pixels of the output become black.
+    /// another size unless it is measured. Other pixels of the output become black.
     pub fn show(
         &mut self,
         gpu: &Gpu,

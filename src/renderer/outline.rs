@@ -13,6 +13,7 @@ use super::calls::{Call, Draw, Source, split};
 use super::device::Gpu;
 use super::fullscreen;
 use super::resident::Resident;
+use super::shader::module;
 use super::targets::{DEPTH_FORMAT, attachment};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::{Rect, View};
@@ -57,13 +58,9 @@ pub(super) struct OutlinePass {
 
 impl OutlinePass {
     pub fn new(device: &Device, output: TextureFormat) -> Self {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("outline"),
-            source: wgpu::ShaderSource::Wgsl(OUTLINE_WGSL.into()),
-        });
+        let shader = module(device, "outline", OUTLINE_WGSL);
         let layout = fullscreen::layout(device, "outline", true, &[(1, false)]);
-        let entry_points = ["outline_cover", "outline_line"];
-        let line = fullscreen::pipeline(device, (&layout, &shader), entry_points, &[], &[output]);
+        let line = fullscreen::pipeline(device, (&layout, &shader), "outline_line", &[], &[output]);
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "outline uniforms", &uniforms, BufferUsages::UNIFORM);
         Self { shader, layout, marks: HashMap::new(), line, uniforms }

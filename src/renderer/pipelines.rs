@@ -7,7 +7,7 @@ use wgpu::{Device, PipelineLayout, RenderPipeline, ShaderModule, TextureFormat, 
 use super::draws::{Attributes, Variant};
 use super::materials::Look;
 use super::prior_sheens::NODES;
-use super::shader::{SHADOWED_WGSL, SURFACES_WGSL};
+use super::shader::{SHADOWED_WGSL, SURFACES_WGSL, module};
 use super::targets::{DEPTH_FORMAT, RadianceFormat};
 
 /// What of the scene a pipeline draws.
@@ -53,11 +53,6 @@ impl Shaders {
     fn shadowed(&self, device: &Device) -> &ShaderModule {
         self.shadowed.get_or_init(|| module(device, "surfaces with shadows", SHADOWED_WGSL))
     }
-}
-
-fn module(device: &Device, label: &str, source: &'static str) -> ShaderModule {
-    let source = wgpu::ShaderSource::Wgsl(source.into());
-    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
 }
 
 impl Pipelines {

@@ -6,6 +6,7 @@ use wgpu::{BindGroupLayout, BufferUsages, CommandEncoder, Device, Queue, RenderP
 use wgpu::{TextureUsages, TextureView};
 
 use super::fullscreen;
+use super::shader::module;
 use super::targets::{Targets, attachment};
 use super::tracked_buffer::TrackedBuffer;
 use super::view::View;
@@ -63,12 +64,8 @@ pub(super) struct Reprojection {
 impl Reprojection {
     pub fn new(device: &Device) -> Self {
         let layout = fullscreen::layout(device, "reprojection", true, &[1, 2, 3].map(|binding| (binding, false)));
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("reprojection"),
-            source: wgpu::ShaderSource::Wgsl(REPROJECTION_WGSL.into()),
-        });
-        let entry_points = ["reprojection_vertex", "reprojection_fragment"];
-        let pipeline = fullscreen::pipeline(device, (&layout, &shader), entry_points, &[], &[FORMAT]);
+        let shader = module(device, "reprojection", REPROJECTION_WGSL);
+        let pipeline = fullscreen::pipeline(device, (&layout, &shader), "reprojection_fragment", &[], &[FORMAT]);
         let uniforms = [0; size_of::<Uniforms>()];
         let uniforms = TrackedBuffer::new(device, "reprojection", &uniforms, BufferUsages::UNIFORM);
         Self { layout, pipeline, uniforms, shares: None }

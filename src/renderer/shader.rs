@@ -1,4 +1,6 @@
-//! The text of the first pass' shader.
+//! The text of the first pass' shader, and modules of any text.
+
+use wgpu::{Device, ShaderModule};
 
 /// The files of the pass without shadows, floor by floor, and after them those that are given: each file stands on those above it in
 /// this list, and a test holds the order.
@@ -61,3 +63,8 @@ pub const SHADOWED_WGSL: &str = surfaces!(
     // Entry points.
     "../../shaders/passes/shadowed.wgsl"
 );
+
+pub fn module(device: &Device, label: &str, source: &'static str) -> ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(source.into());
+    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source })
+}

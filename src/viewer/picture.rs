@@ -178,11 +178,7 @@ impl Picture {
         self.resting = self.resting_after(shot);
         self.undrawn = Change::None;
         let is_near = self.remembered.as_ref().is_some_and(|camera| is_near(&shot.camera, camera, self.center));
-        let can = Can {
-            shadow: self.has_shadows(shot),
-            scale: self.renderer.is_scaled(&shot.settings),
-            remember: is_near && self.renderer.remembers(&shot.settings),
-        };
+        let can = Can { shadow: self.has_shadows(shot), remember: is_near && self.renderer.remembers(&shot.settings) };
         let height = self.size[1];
         let step = self.resting.step(height, &can);
         if step == Step::Enough {

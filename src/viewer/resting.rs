@@ -32,8 +32,6 @@ pub enum Step {
 pub struct Can {
     /// It has shadows.
     pub shadow: bool,
-    /// It may be shown in another size than it is drawn in.
-    pub scale: bool,
     /// The shadows of an earlier picture will do.
     pub remember: bool,
 }
@@ -76,7 +74,7 @@ impl Resting {
 
     /// What to draw next of a picture of this height.
     pub fn step(&self, height: u32, can: &Can) -> Step {
-        let is_coarse = can.scale && self.pace.divisor() > 1;
+        let is_coarse = self.pace.divisor() > 1;
         match self.at {
             At::Start if is_coarse && can.remember => Step::Remember(self.remembering.divisor()),
             At::Start if is_coarse => Step::Coarse(self.pace.divisor()),
@@ -140,7 +138,7 @@ mod tests {
 
     const HEIGHT: u32 = 720;
 
-    const SHADOWED: Can = Can { shadow: true, scale: true, remember: false };
+    const SHADOWED: Can = Can { shadow: true, remember: false };
     const REMEMBERED: Can = Can { remember: true, ..SHADOWED };
     const PLAIN: Can = Can { shadow: false, ..SHADOWED };
 
@@ -225,11 +223,11 @@ mod tests {
 
     #[test]
     fn without_shadows_there_is_one_sample() {
-        for (slow, scale) in [(false, true), (true, true), (true, false)] {
+        for slow in [false, true] {
             let mut resting = Resting::new(slow);
-            let steps = steps(&mut resting, &Can { scale, ..PLAIN }, Duration::from_micros(100));
+            let steps = steps(&mut resting, &PLAIN, Duration::from_micros(100));
             assert_eq!(steps.last(), Some(&Step::Rows(0, 0..HEIGHT)));
-            assert_eq!((samples(&steps), steps.len()), (1, if slow && scale { 2 } else { 1 }));
+            assert_eq!((samples(&steps), steps.len()), (1, if slow { 2 } else { 1 }));
         }
     }
 

@@ -61,8 +61,15 @@ pub const FLOORS: [&[&str]; 24] = [
 ];
 
 /// Whole passes of one file: they name nobody else's, and nobody names theirs.
-const ALONE: [&str; 5] =
-    ["passes/accumulation", "passes/denoise", "passes/display", "passes/outline", "passes/reprojection"];
+const ALONE: [&str; 7] = [
+    "passes/accumulation",
+    "passes/denoise",
+    "passes/display",
+    "passes/enlargement",
+    "passes/fullscreen",
+    "passes/outline",
+    "passes/reprojection",
+];
 
 fn all() -> impl Iterator<Item = &'static str> {
     FLOORS.concat().into_iter().chain(ALONE)

@@ -1,5 +1,6 @@
 //! On a device.
 
+mod enlargement;
 mod outline;
 mod reprojection;
 mod traversal;
