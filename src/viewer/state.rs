@@ -104,6 +104,11 @@ impl State {
         Drawn::new(&self.scene, &self.edits)
     }
 
+    /// The alpha of the material that the panel shows; none where it has no sheen.
+    pub fn alpha(&self) -> Option<f32> {
+        Drawn::material(&self.scene, &self.edits, self.material).sheen.map(|sheen| sheen.alpha())
+    }
+
     /// Whether the exposure is to be metered before the picture is drawn.
     pub fn needs_metering(&self) -> bool {
         self.edits.exposure == Some(Exposure::Auto) && self.metered.is_none()

@@ -1,7 +1,7 @@
 //! The parts of the panel: presets, alpha, the list of materials, messages.
 
 use super::*;
-use crate::viewer::sheet::Sheet;
+use crate::viewer::sheet::{Sheet, Tile};
 
 #[test]
 fn a_chip_sets_all_of_a_material_and_shows_that_it_is_in_force() {
@@ -114,8 +114,7 @@ fn a_sheet_of_nine_lies_over_the_picture_and_one_is_taken() {
 fn a_sheet_whose_scene_has_changed_begins_anew() {
     let mut window = full();
     let mut sheet = Sheet::new(&window.state.edits, 0);
-    let image = egui::ColorImage::filled([2, 2], egui::Color32::WHITE);
-    sheet.pictures[3] = Some(window.context.load_texture("test", image, Default::default()).id());
+    sheet.pictures[3] = Some(Tile { texture: egui::TextureId::User(7), size: [2; 2] });
     window.state.sheet = Some(sheet);
     let is_kept = |window: &Window| window.state.sheet.as_ref().unwrap().pictures[3].is_some();
     // Alpha is none of what they have in common.
