@@ -176,7 +176,7 @@ fn nothing_below_the_sheet_hears_of_the_pointer() {
 }
 
 /// The sheet's picture of this alpha; the panel has pictures, too.
-fn cell<'a>(window: &'a Window, alpha: f32) -> &'a Node {
+fn cell(window: &Window, alpha: f32) -> &Node {
     let name = format!("alpha {alpha}");
     let named = window.nodes.iter().filter(|node| node.role() == Role::Button && node.label() == Some(&name));
     let is_over_picture = |node: &&Node| place(node).is_some_and(|at| window.layout.picture.contains_rect(at));
