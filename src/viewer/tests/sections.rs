@@ -28,6 +28,23 @@ fn a_chip_sets_all_of_a_material_and_shows_that_it_is_in_force() {
     assert!(!is_selected(&window, "dusty metal"));
 }
 
+/// The scene's materials may be called as chips are: what is a name of the scene's says so, and stays.
+#[test]
+fn names_of_the_scene_are_told_from_chips() {
+    let mut window = full();
+    let chip = window.place(Role::Button, "moss").center();
+    window.click(chip);
+    window.pass(vec![]);
+    let list = window.in_row("in the scene", Role::ComboBox)[0];
+    let says = window.nodes.iter().find(|node| place(node) == Some(list)).and_then(|node| node.value());
+    assert_eq!(says, Some("0 velvet"));
+    let text = window.hover_text(list.center()).unwrap();
+    assert!(text.starts_with("velvet\n") && text.contains("name stays"), "{text}");
+    // Where there is but one, there is nothing to pick.
+    let one = Window::new(scene(1.0));
+    assert!(one.nodes.iter().all(|node| node.value() != Some("in the scene")));
+}
+
 #[test]
 fn a_picture_of_an_alpha_sets_it() {
     let mut window = full();
