@@ -301,3 +301,39 @@ fn a_small_window_reaches_everything() {
         assert!(seen.contains(row), "{row} is not in {seen:?}");
     }
 }
+
+/// What is out of sight costs nothing but its room.
+#[test]
+fn a_thousand_lights_are_laid_out_where_they_are_seen() {
+    let mut many = scene(1.0);
+    many.lights = vec![many.lights[0].clone(); 1000];
+    let mut window = Window::of_size(many, vec2(1280.0, 720.0));
+    let listed = |window: &Window| -> Vec<usize> {
+        let titles = window.nodes.iter().filter_map(|node| node.label()?.strip_prefix("key (")?.strip_suffix(')'));
+        titles.map(|number| number.parse().unwrap()).collect()
+    };
+    assert!((1..100).contains(&listed(&window).len()), "{}", listed(&window).len());
+    let scroll = |window: &mut Window, delta: f32| {
+        let (unit, phase) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move);
+        let source = egui::MouseWheelSource::Wheel;
+        let (delta, modifiers) = (vec2(0.0, delta), Modifiers::NONE);
+        window.pass(vec![Event::PointerMoved(pos2(1100.0, 300.0))]);
+        window.pass(vec![Event::MouseWheel { unit, delta, phase, source, modifiers }]);
+        window.rest(40);
+    };
+    // All of them have their room: the last is at the very end.
+    scroll(&mut window, -1e6);
+    let last = window.place(Role::DisclosureTriangle, "key (1000)");
+    assert!(last.max.y < 660.0 && !listed(&window).contains(&1));
+    // One that is opened there works, and stays open while it is out of sight.
+    window.click(last.center());
+    window.rest(40);
+    scroll(&mut window, -1e6);
+    let radiance = window.in_row("radiance", Role::SpinButton)[0];
+    window.type_into(radiance, "3");
+    assert_eq!(window.state.edits.of_light(999).strength, Some(3.0));
+    scroll(&mut window, 1e6);
+    assert!(!listed(&window).contains(&1000));
+    scroll(&mut window, -1e6);
+    assert_eq!(window.in_row("radiance", Role::SpinButton), [radiance]);
+}
