@@ -4,6 +4,9 @@ use glam::{Mat4, Vec3};
 /// distance, with lights set up around the things, to fit in 32-bit floats.
 pub const FARTHEST: f32 = 1e10;
 
+/// The thickness of a flat box, of its longest side.
+const FLAT: f32 = 1e-3;
+
 /// An axis-aligned box in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
@@ -53,5 +56,20 @@ impl Bounds {
     /// The distance between opposite corners, 0 for an empty box.
     pub fn diagonal(&self) -> f64 {
         (self.max.as_dvec3() - self.min.as_dvec3()).max(glam::DVec3::ZERO).length()
+    }
+
+    /// The axis across which it has no extent to speak of, of a box that has some along both others: that of a floor or a wall.
+    pub fn flat(&self) -> Option<Vec3> {
+        let size = self.max - self.min;
+        let is_thin = size.to_array().map(|side| side < FLAT * size.max_element());
+        let axis = is_thin.iter().position(|&is_thin| is_thin)?;
+        (is_thin.iter().filter(|is_thin| **is_thin).count() == 1).then_some(Vec3::AXES[axis])
+    }
+
+    /// Half the diagonal in metres, but never so small, for where the box is, that it would be lost in rounding. The box must
+    /// not be empty.
+    pub fn radius(&self) -> f32 {
+        let magnitude = self.min.abs().max(self.max.abs()).max_element();
+        (0.5 * self.diagonal() as f32).max(1e-5 * magnitude).max(1e-12)
     }
 }

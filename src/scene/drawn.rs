@@ -51,6 +51,11 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
+    /// The material of this index alone, as it is drawn: what `materials` of all this would have.
+    pub fn material(scene: &Scene, edits: &Edits, index: usize) -> Material {
+        edited_material(scene, edits, index, none_has_sheen(scene))
+    }
+
     /// The light whose emitter the instance of this index is, if there is one.
     pub fn light(&self, instance: usize) -> Option<&Light> {
         self.light_index(instance).map(|index| &self.lights[index])
@@ -96,20 +101,30 @@ fn is_seen(sheen: &Sheen) -> bool {
 }
 
 fn materials(scene: &Scene, edits: &Edits) -> Vec<Material> {
-    let is_loaded = |material: &Material| material.sheen.as_ref().is_some_and(is_seen);
-    // What the file has decides: a sheen that one material is given takes none from the others.
-    let none_has = !scene.materials.iter().any(is_loaded);
-    let edited = |(index, material): (usize, &Material)| {
-        let own = edits.materials.get(&index).copied().unwrap_or_default();
-        let mut changes = edits.of_material(index);
-        if !is_loaded(material) && !own.gives_sheen() && !none_has {
-            // What is said of the sheens of all materials is none of this one's business.
-            (changes.alpha, changes.sheen_color, changes.sheen_weight) = (None, None, None);
-            changes.sheen = changes.sheen.filter(|is_on| !is_on);
-        }
-        edited(material.clone(), &changes)
-    };
-    scene.materials.iter().enumerate().map(edited).collect()
+    let none_has = none_has_sheen(scene);
+    (0..scene.materials.len()).map(|index| edited_material(scene, edits, index, none_has)).collect()
+}
+
+/// Whether a material has a sheen by the file that can be seen.
+fn is_loaded(material: &Material) -> bool {
+    material.sheen.as_ref().is_some_and(is_seen)
+}
+
+/// What the file has decides: a sheen that one material is given takes none from the others.
+fn none_has_sheen(scene: &Scene) -> bool {
+    !scene.materials.iter().any(is_loaded)
+}
+
+fn edited_material(scene: &Scene, edits: &Edits, index: usize, none_has: bool) -> Material {
+    let material = &scene.materials[index];
+    let own = edits.materials.get(&index).copied().unwrap_or_default();
+    let mut changes = edits.of_material(index);
+    if !is_loaded(material) && !own.gives_sheen() && !none_has {
+        // What is said of the sheens of all materials is none of this one's business.
+        (changes.alpha, changes.sheen_color, changes.sheen_weight) = (None, None, None);
+        changes.sheen = changes.sheen.filter(|is_on| !is_on);
+    }
+    edited(material.clone(), &changes)
 }
 
 fn edited(mut material: Material, edits: &MaterialEdits) -> Material {

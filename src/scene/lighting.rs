@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3};
 
 use super::emission::spread;
-use super::{Instance, Light, Scene, framing};
+use super::{Instance, Light, Scene};
 
 /// Lights are faint that would give less than this to a white, matte surface which faces all of them from as far as the
 /// subject reaches from its middle.
@@ -49,7 +49,7 @@ struct Receiver {
 pub(super) fn shows_subject(scene: &Scene) -> bool {
     let mut sources: Vec<Source> = scene.lights.iter().flat_map(sources).collect();
     let power: f64 = sources.iter().map(Source::power).sum();
-    let reach = f64::from(framing::radius(&scene.subject()));
+    let reach = f64::from(scene.subject().radius());
     if !scene.punctual_lights.is_empty() || power >= FAINT * PI * reach * reach {
         return true;
     }

@@ -3,7 +3,7 @@
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::notices::Notices;
-use super::{Camera, Instance, Projection, Scene, emitter, framing, lighting, lights};
+use super::{Camera, Instance, Projection, Scene, emitter, lighting, lights};
 
 /// Radiance of a white diffuse surface that faces the key, fill or rim light.
 const KEY_LEVEL: f32 = 0.7;
@@ -66,7 +66,7 @@ pub(super) fn add(scene: &mut Scene, notices: &mut Notices) {
     let Some(camera) = scene.cameras.first() else { return };
     let first = scene.instances.len();
     let subject = scene.subject();
-    let (center, radius) = (subject.center(), framing::radius(&subject));
+    let (center, radius) = (subject.center(), subject.radius());
     // Farther away and larger by the same factor it lights the subject alike, and at last it leaves the frame.
     let sizes = std::iter::successors(Some(radius), |size| Some(2.0 * size)).take(SIZES);
     let placed = sizes.map(|size| PANELS.each_ref().map(|panel| panel.world_from_mesh(camera, center, size)));

@@ -1,6 +1,8 @@
 //! What is remembered of the hands from pass to pass.
 
-use egui::Pos2;
+use std::collections::HashSet;
+
+use egui::{Key, Pos2};
 use glam::Vec3;
 
 use crate::scene::Orbit;
@@ -16,6 +18,8 @@ pub struct Hands {
     pub zoomed: Option<(Pos2, Vec3, Orbit)>,
     /// How far away what a pan drags along is, metres.
     pub held: Option<f32>,
+    /// The keys that are held, by their place on a US keyboard.
+    pub keys: HashSet<Key>,
     /// Since when the last part of a flight has not been flown, in egui's time; none where there is no flight.
     pub flying: Option<f64>,
     /// Whether the window was too narrow for panel and picture.

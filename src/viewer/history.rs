@@ -19,34 +19,29 @@ pub struct History {
 /// The edits after a change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// Without a camera.
+    /// Whose camera is of no account.
     pub edits: Edits,
     /// What metering took, where the exposure is automatic.
     pub metered: Option<f32>,
 }
 
-impl Step {
-    fn new(edits: &Edits, metered: Option<f32>) -> Self {
-        Self { edits: Edits { camera: None, ..edits.clone() }, metered }
-    }
-}
-
 impl History {
     /// These edits are the first step.
     pub fn new(edits: &Edits) -> Self {
-        Self { steps: vec![Step::new(edits, None)], now: 0 }
+        Self { steps: vec![Step { edits: edits.clone(), metered: None }], now: 0 }
     }
 
     /// Keeps what the user has made of the edits as a step, where it differs from the step before. What had been undone is
     /// then forgotten. What metering takes is no change, but belongs to the step.
     pub fn keep(&mut self, edits: &Edits, metered: Option<f32>) {
-        let step = Step::new(edits, metered);
-        if step.edits == self.steps[self.now].edits {
-            self.steps[self.now].metered = metered;
+        let shown = &mut self.steps[self.now];
+        shown.edits.camera = edits.camera;
+        if shown.edits == *edits {
+            shown.metered = metered;
             return;
         }
         self.steps.truncate(self.now + 1);
-        self.steps.push(step);
+        self.steps.push(Step { edits: edits.clone(), metered });
         self.steps.drain(..self.steps.len().saturating_sub(MOST + 1));
         self.now = self.steps.len() - 1;
     }
@@ -121,7 +116,11 @@ mod tests {
         history.keep(&Edits { camera: Some(CameraEdit::Loaded(1)), ..Edits::default() }, None);
         assert!(!history.can_undo());
         history.keep(&Edits { camera: Some(CameraEdit::Loaded(1)), ..exposed(1.0) }, None);
-        assert_eq!(history.undo().map(|step| step.edits.camera), Some(None));
+        history.keep(&Edits { camera: Some(CameraEdit::Loaded(2)), ..exposed(1.0) }, None);
+        assert!(history.undo().is_some() && !history.can_undo());
+        // Nor does a view that is turned meanwhile make what was undone be forgotten.
+        history.keep(&Edits { camera: Some(CameraEdit::Loaded(3)), ..Edits::default() }, None);
+        assert!(history.can_redo());
     }
 
     #[test]

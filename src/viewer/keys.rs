@@ -1,5 +1,6 @@
 //! What keys and mouse do, in one table: dispatch goes by it, and the list that ? opens shows it.
 
+use std::collections::HashSet;
 use std::f32::consts::FRAC_PI_2;
 
 use egui::{Align2, Context, Event, Id, Key, ModifierNames, Modifiers, PointerButton, vec2};
@@ -13,7 +14,8 @@ pub enum Input {
     Press(Modifiers, Key),
     /// The same while no control has the focus, which such a key would change.
     Unfocused(Key),
-    /// Holds a key down together with the right button.
+    /// Holds a key down together with the right button: the one in the place that this key has on a US keyboard, whatever is
+    /// written on it.
     Held(Key),
     /// Drags in the picture with at least these modifiers.
     Drag(Modifiers, PointerButton),
@@ -44,6 +46,8 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 /// An arrow turns by 5 degrees: in view heights, of which one is half a turn.
 const ARROW: f32 = 5.0 / 180.0;
 
+const FLY: &str = "fly ahead, and look around; with Shift faster\n(keys by place: Z, Q, S, D on AZERTY)";
+
 /// All of it.
 pub const ROWS: &[Row] = &[
     row(Input::Drag(Modifiers::NONE, PointerButton::Primary), Command::Turn, "turn"),
@@ -64,7 +68,7 @@ pub const ROWS: &[Row] = &[
     row(Input::Unfocused(Key::ArrowRight), Command::TurnBy([ARROW, 0.0]), "turn"),
     row(Input::Unfocused(Key::ArrowUp), Command::TurnBy([0.0, -ARROW]), "turn"),
     row(Input::Unfocused(Key::ArrowDown), Command::TurnBy([0.0, ARROW]), "turn"),
-    row(Input::Held(Key::W), Command::Fly([0.0, 0.0, 1.0]), "fly ahead, and look around; with Shift faster"),
+    row(Input::Held(Key::W), Command::Fly([0.0, 0.0, 1.0]), FLY),
     row(Input::Held(Key::S), Command::Fly([0.0, 0.0, -1.0]), "fly back"),
     row(Input::Held(Key::A), Command::Fly([-1.0, 0.0, 0.0]), "fly left"),
     row(Input::Held(Key::D), Command::Fly([1.0, 0.0, 0.0]), "fly right"),
@@ -131,20 +135,34 @@ pub fn pressed(context: &Context) -> Vec<Command> {
     context.input(|input| input.events.iter().filter_map(command).collect())
 }
 
+/// Brings the places of the keys that are held to where this pass's events leave them: egui itself keeps what is written on
+/// them.
+pub fn follow_held(context: &Context, held: &mut HashSet<Key>) {
+    context.input(|input| {
+        for event in &input.events {
+            match *event {
+                Event::Key { key, physical_key, pressed: true, .. } => _ = held.insert(physical_key.unwrap_or(key)),
+                Event::Key { key, physical_key, pressed: false, .. } => _ = held.remove(&physical_key.unwrap_or(key)),
+                // Nobody tells of what is released in another window.
+                Event::WindowFocused(false) => held.clear(),
+                _ => {}
+            }
+        }
+    });
+}
+
 /// Where the keys that are held say to fly; none where they say nothing. With a modifier other than Shift they mean
 /// something else.
-pub fn flight(context: &Context) -> Option<[f32; 3]> {
-    if context.text_edit_focused() {
+pub fn flight(context: &Context, held: &HashSet<Key>) -> Option<[f32; 3]> {
+    if context.text_edit_focused() || context.input(|input| input.modifiers.command) {
         return None;
     }
-    context.input(|input| {
-        let step = |row: &Row| match (row.input, row.command) {
-            (Input::Held(key), Command::Fly(step)) => (input.key_down(key) && !input.modifiers.command).then_some(step),
-            _ => None,
-        };
-        let add = |sum: [f32; 3], step: [f32; 3]| std::array::from_fn(|axis| sum[axis] + step[axis]);
-        ROWS.iter().filter_map(step).reduce(add)
-    })
+    let step = |row: &Row| match (row.input, row.command) {
+        (Input::Held(key), Command::Fly(step)) => held.contains(&key).then_some(step),
+        _ => None,
+    };
+    let add = |sum: [f32; 3], step: [f32; 3]| std::array::from_fn(|axis| sum[axis] + step[axis]);
+    ROWS.iter().filter_map(step).reduce(add)
 }
 
 /// What dragging with a button does: of the rows whose modifiers are held, the one with most.

@@ -24,7 +24,7 @@ impl Default for Layout {
 
 /// Lays out the window's content and applies what the user does to the state's edits.
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
-    let (before, outlined) = (state.edits.clone(), state.outlined);
+    let outlined = state.outlined;
     // Before the panel, where a key may end what is typed.
     let commands = keys::pressed(ui);
     panel::sweep(ui, state);
@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     if is_narrow(area) {
         fold_button(ui, picture, state);
     }
-    let mut change = Change::between(&before, &state.edits);
+    let mut change = changed(state);
     if state.needs_metering() {
         change = change.max(Change::Drawn);
     }
@@ -59,6 +59,15 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
         change = change.max(Change::Shown);
     }
     Layout { picture, change, request }
+}
+
+/// What has changed since the last pass. Edits may be many: they are copied only where there is something.
+fn changed(state: &mut State) -> Change {
+    let change = Change::between(&state.shown, &state.edits);
+    if change > Change::None {
+        state.shown.clone_from(&state.edits);
+    }
+    change
 }
 
 /// Once a change has come to its end, it can be undone.

@@ -80,10 +80,9 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     })
 }
 
-/// Shows the scene, at first with the edits that come with it, under the title `name`, until the window is closed. The window does
-/// not wait for it. Panics where the scene has no camera or no material.
-pub fn run(event_loop: EventLoop<()>, name: &str, loading: Loading, table: SheenTable) -> Result<(), ViewerError> {
-    let mut app = window::App::new(name, loading, table, event_loop.create_proxy());
+/// Shows the scene, at first with the edits that come with it, until the window is closed. The window does not wait for it.
+pub fn run(event_loop: EventLoop<()>, loading: Loading, table: SheenTable) -> Result<(), ViewerError> {
+    let mut app = window::App::new(loading, table, event_loop.create_proxy());
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
     app.failure.map_or(Ok(()), Err)
 }

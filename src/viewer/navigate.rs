@@ -74,7 +74,8 @@ pub fn take_focus(ui: &Ui, picture: Rect) {
 /// released. Whether it does.
 fn fly(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> bool {
     let is_held = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.secondary_down());
-    let step = keys::flight(ui);
+    keys::follow_held(ui, &mut state.hands.keys);
+    let step = keys::flight(ui, &state.hands.keys);
     let now = ui.input(|input| input.time);
     if !is_held || (step.is_none() && state.hands.flying.is_none()) {
         state.hands.flying = None;

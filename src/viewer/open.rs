@@ -15,7 +15,7 @@ use super::order::{Left, Order, Report, Textures, Unseen, Work};
 use super::painter::Painter;
 use super::screen::Screen;
 use super::state::State;
-use super::{sheet_view, theme, window_size};
+use super::{theme, window_size};
 use crate::renderer::{Gpu, device};
 use crate::scene::Edits;
 use crate::table::SheenTable;
@@ -198,12 +198,12 @@ impl Open {
         if report.frame_time.is_some() && self.timed.elapsed() > TIMED {
             (state.frame_time, self.timed) = (report.frame_time, native::now());
         }
-        if let Some((index, id)) = report.tile {
-            self.tiles.push(id);
+        if let Some((index, tile)) = report.tile {
+            self.tiles.push(tile.texture);
             // The sheet may have begun anew meanwhile.
             let asked = self.asked.take();
             if let Some(sheet) = state.sheet.as_mut().filter(|sheet| Some(&sheet.edits) == asked.as_ref()) {
-                sheet.pictures[index] = Some(id);
+                sheet.pictures[index] = Some(tile);
                 return Ok(true);
             }
         }
@@ -293,10 +293,7 @@ impl Open {
             _ if state.is_some() && self.comment.is_some() => Some(Work::Save),
             // Over the picture, which waits.
             Some(_) if self.screen.is_stale() => Some(Work::Present),
-            Some(sheet) => {
-                let size = self.screen.pixels_per_point * sheet_view::image_size(self.screen.picture);
-                sheet.missing().map(|index| Work::Tile(index, [size.x as u32, size.y as u32].map(|side| side.max(1))))
-            }
+            Some(sheet) => sheet.missing().map(|index| Work::Tile(index, sheet.size)),
             None if rests || self.announced || self.untold.max(self.screen.change) > Change::None => Some(Work::Frame),
             None => self.screen.is_stale().then_some(Work::Present),
         }
@@ -305,7 +302,8 @@ impl Open {
     /// Textures that no sheet shows any more.
     fn unused_tiles(&mut self, state: Option<&State>) -> Vec<TextureId> {
         let sheet = state.and_then(|state| state.sheet.as_ref());
-        let is_used = |id: &TextureId| sheet.is_some_and(|sheet| sheet.pictures.contains(&Some(*id)));
+        let is_used =
+            |id: &TextureId| sheet.is_some_and(|sheet| sheet.pictures.iter().flatten().any(|tile| tile.texture == *id));
         let (used, unused) = std::mem::take(&mut self.tiles).into_iter().partition(is_used);
         self.tiles = used;
         unused

@@ -8,6 +8,7 @@ use egui::epaint::ClippedShape;
 use egui::epaint::textures::TexturesDelta;
 
 use super::change::Change;
+use super::sheet::Tile;
 use crate::picture::DisplayImage;
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 
@@ -101,7 +102,7 @@ pub struct Report {
     /// The picture that was to be kept.
     pub saved: Option<Result<DisplayImage, String>>,
     /// The sheet's picture that was asked for.
-    pub tile: Option<(usize, TextureId)>,
+    pub tile: Option<(usize, Tile)>,
 }
 
 /// Why nothing was presented.

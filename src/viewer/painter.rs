@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::native;
 use super::order::{Order, Report, Shot, Work};
 use super::picture::Picture;
+use super::sheet::Tile;
 use crate::picture::DisplayImage;
 use crate::renderer::{Gpu, Offscreen, RenderError};
 use crate::table::SheenTable;
@@ -119,9 +120,9 @@ impl Painter {
     /// One picture of the sheet.
     fn tile(&mut self, shot: &Shot, index: usize, size: [u32; 2], report: &mut Report) -> Result<(), ViewerError> {
         if let Some(picture) = &mut self.picture {
-            let (id, view) = self.frame.add_texture(&self.gpu, size);
+            let (texture, view) = self.frame.add_texture(&self.gpu, size);
             picture.aside(&self.gpu, (&view, size), shot)?;
-            report.tile = Some((index, id));
+            report.tile = Some((index, Tile { texture, size }));
         }
         Ok(())
     }

@@ -21,6 +21,8 @@ pub struct State {
     pub name: String,
     pub scene: Arc<Scene>,
     pub edits: Edits,
+    /// The edits as the last pass has left them.
+    pub shown: Edits,
     /// The material that the panel shows.
     pub material: usize,
     /// What the renderer has to say of the view that it drew last.
@@ -53,7 +55,9 @@ pub struct State {
     pub history: History,
     /// The middle of what is seen at first, else of what is lit, metres: a camera of the scene turns about it.
     center: Vec3,
-    /// The scene's diagonal, metres.
+    /// What is framed where nothing was clicked.
+    foreground: Bounds,
+    /// The scene's diagonal, metres, > 0.
     size: f32,
     /// From where the eye is at first to the middle, metres.
     distance: f32,
@@ -72,7 +76,7 @@ impl State {
         let shown = drawn.materials.iter().position(|material| material.sheen.is_some());
         let camera = edits.camera(&scene);
         let center = pick::subject(&drawn, &camera).unwrap_or_else(|| scene.subject().center());
-        let diagonal = scene.bounds().diagonal();
+        let bounds = scene.bounds();
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
@@ -92,9 +96,11 @@ impl State {
             history: History::new(&edits),
             center,
             distance: Orbit::new(&camera, center).distance,
-            size: (diagonal as f32).max(f32::MIN_POSITIVE),
-            step: step(diagonal),
+            foreground: scene.foreground(scene.cameras[0].world_from_camera.w_axis.truncate()),
+            size: 2.0 * bounds.radius(),
+            step: step(bounds.diagonal()),
             scene: Arc::new(scene),
+            shown: edits.clone(),
             edits,
         }
     }
@@ -102,6 +108,11 @@ impl State {
     /// The scene as it is drawn.
     pub fn drawn(&self) -> Drawn<'_> {
         Drawn::new(&self.scene, &self.edits)
+    }
+
+    /// The alpha of the material that the panel shows; none where it has no sheen.
+    pub fn alpha(&self) -> Option<f32> {
+        Drawn::material(&self.scene, &self.edits, self.material).sheen.map(|sheen| sheen.alpha())
     }
 
     /// Whether the exposure is to be metered before the picture is drawn.
@@ -149,10 +160,10 @@ impl State {
 
     /// The box of what is framed where nothing was clicked: the first camera tells what is seen from the midst of it.
     pub fn foreground(&self) -> Bounds {
-        self.scene.foreground(self.scene.cameras[0].world_from_camera.w_axis.truncate())
+        self.foreground
     }
 
-    /// The scene's diagonal, metres.
+    /// The scene's diagonal, metres, > 0.
     pub fn size(&self) -> f32 {
         self.size
     }

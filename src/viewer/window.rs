@@ -45,9 +45,9 @@ pub(super) struct App {
 }
 
 impl App {
-    pub fn new(name: &str, loading: Loading, table: SheenTable, wake: EventLoopProxy<()>) -> Self {
-        let (loading, table) = (Some(loading), Some(table));
-        Self { name: name.to_owned(), loading, state: None, table, wake, open: None, failure: None }
+    pub fn new(loading: Loading, table: SheenTable, wake: EventLoopProxy<()>) -> Self {
+        let name = loading.name.clone();
+        Self { name, loading: Some(loading), state: None, table: Some(table), wake, open: None, failure: None }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -73,8 +73,7 @@ impl App {
     /// Takes the scene where it is there after so long at most.
     fn receive_scene(&mut self, patience: Duration) -> Result<(), ViewerError> {
         if let Some(loading) = self.loading.take_if(|loading| loading.is_done_within(patience)) {
-            let (scene, edits) = loading.wait().map_err(ViewerError::Scene)?;
-            self.state = Some(State::new(&self.name, scene, edits));
+            self.state = Some(loading.state().map_err(ViewerError::Scene)?);
         }
         Ok(())
     }
@@ -89,7 +88,7 @@ impl App {
             let last = match (&mut self.state, &self.loading) {
                 (Some(state), _) => layout::show(ui, state),
                 (None, Some(loading)) => {
-                    loading::show(ui, file_name(&self.name), loading);
+                    loading::show(ui, loading);
                     Layout::default()
                 }
                 (None, None) => Layout::default(),

@@ -44,8 +44,7 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
             return Err(Failure::device(format!("{error}: open a desktop, or use `velour render`")));
         }
     };
-    let name = name(arguments.scene.as_deref());
-    viewer::run(event_loop, &name, loading, SheenTable::embedded()).map_err(failure)
+    viewer::run(event_loop, loading, SheenTable::embedded()).map_err(failure)
 }
 
 /// The viewer; without a display, or a device that draws on it, the picture that it would show.
@@ -53,9 +52,9 @@ pub fn run_or_render(path: Option<&Path>, options: &Options) -> Result<(), Failu
     let loading = load_aside(path.map(Path::to_owned), options.clone(), None);
     let event_loop = match viewer::event_loop() {
         Ok(event_loop) => event_loop,
-        Err(no_display) => return render_instead(&no_display, path, &loading.wait().map_err(Failure::input)?.0),
+        Err(no_display) => return render_instead(&no_display, path, &*loading.wait().map_err(Failure::input)?),
     };
-    match viewer::run(event_loop, &name(path), loading, SheenTable::embedded()) {
+    match viewer::run(event_loop, loading, SheenTable::embedded()) {
         // The viewer has kept the scene.
         Err(why @ ViewerError::Device(_)) => {
             render_instead(&why, path, &load(path, options, &|_| ()).map_err(Failure::input)?)
@@ -73,7 +72,7 @@ fn failure(error: ViewerError) -> Failure {
 
 /// Loads a scene, and the edits in a state's file, while the window opens.
 fn load_aside(path: Option<PathBuf>, options: Options, state: Option<PathBuf>) -> viewer::Loading {
-    viewer::Loading::start(move |stage| {
+    viewer::Loading::start(&name(path.as_deref()), move |stage| {
         let scene = load(path.as_deref(), &options, stage)?;
         let edits = state.map_or_else(|| Ok(Edits::default()), |path| state::load(&path, &scene));
         let edits = edits.and_then(|edits| render::check_real_time(&edits).map(|()| edits));

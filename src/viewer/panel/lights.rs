@@ -1,6 +1,6 @@
 //! The part of the panel that shows the lights.
 
-use egui::{CollapsingHeader, Ui};
+use egui::{CollapsingHeader, Rangef, Ui, vec2};
 use glam::Vec3;
 
 use super::super::state::State;
@@ -20,16 +20,36 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         ui.weak("no lights with an area");
     }
     for index in 0..state.scene.lights.len() {
-        let name = match state.scene.lights[index].name.as_str() {
-            "" => "light",
-            name => name,
-        };
-        let about = format!("{name}\nClick to fold this light away, or to open it.");
-        let title = format!("{} ({})", short(name, NAME_SHOWN), index + 1);
-        let section = CollapsingHeader::new(title).id_salt(index).default_open(few);
-        let header = section.show_unindented(ui, |ui| light(ui, state, index)).header_response;
-        header.on_hover_text(about);
+        in_sight(ui, index, |ui| section(ui, state, index, few));
     }
+}
+
+/// Lays out the item of this index; where it is far out of sight, the room that it took last.
+fn in_sight(ui: &mut Ui, index: usize, add: impl FnOnce(&mut Ui)) {
+    let id = ui.scope_id().with(("height", index));
+    let known: Option<f32> = ui.data(|data| data.get_temp(id));
+    let seen = ui.clip_rect();
+    let near = seen.y_range().expand(seen.height());
+    let top = ui.cursor().min.y;
+    if let Some(height) = known.filter(|height| !near.intersects(Rangef::new(top, top + height))) {
+        ui.allocate_space(vec2(ui.available_width(), height));
+        return;
+    }
+    let height = ui.scope(add).response.rect.height();
+    ui.data_mut(|data| data.insert_temp(id, height));
+}
+
+/// A light under its name, open at first where there are few.
+fn section(ui: &mut Ui, state: &mut State, index: usize, few: bool) {
+    let name = match state.scene.lights[index].name.as_str() {
+        "" => "light",
+        name => name,
+    };
+    let about = format!("{name}\nClick to fold this light away, or to open it.");
+    let title = format!("{} ({})", short(name, NAME_SHOWN), index + 1);
+    let section = CollapsingHeader::new(title).id_salt(index).default_open(few);
+    let header = section.show_unindented(ui, |ui| light(ui, state, index)).header_response;
+    header.on_hover_text(about);
 }
 
 fn light(ui: &mut Ui, state: &mut State, index: usize) {

@@ -31,7 +31,7 @@ struct Shown {
 impl Shown {
     fn new(state: &State) -> Self {
         let index = state.material;
-        let material = |edits: &Edits| Drawn::new(&state.scene, edits).materials.swap_remove(index);
+        let material = |edits: &Edits| Drawn::material(&state.scene, edits, index);
         let shown = material(&state.edits);
         let unlit = shown.unlit.then_some(UNLIT);
         let with_sheen = || {

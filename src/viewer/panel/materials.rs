@@ -3,7 +3,7 @@
 use egui::{ComboBox, PopupCloseBehavior, ScrollArea, TextEdit, Ui};
 
 use super::super::state::State;
-use super::super::widgets::short;
+use super::super::widgets::{row, short};
 
 /// A list of more materials than this has a box to search it.
 const MANY: usize = 12;
@@ -11,12 +11,24 @@ const MANY: usize = 12;
 /// Most characters of a name in the list.
 const NAME_SHOWN: usize = 40;
 
-/// Lets the user pick a material, where there are several.
+const ABOUT: &str =
+    "The material of the scene that is shown and changed below. Its name stays, whatever it is made to look like.";
+
+/// Lets the user pick a material, where there are several. Its name is the scene's, whatever it is made to look like.
 pub fn show(ui: &mut Ui, state: &mut State) {
-    let names: Vec<&str> = state.scene.materials.iter().map(|material| material.name.as_str()).collect();
-    if names.len() <= 1 {
+    if state.scene.materials.len() <= 1 {
         return;
     }
+    let before = state.material;
+    row(ui, "in the scene", ABOUT, |ui| list(ui, state));
+    if state.material != before {
+        // It shows the other one.
+        state.sheet = None;
+    }
+}
+
+fn list(ui: &mut Ui, state: &mut State) {
+    let names: Vec<&str> = state.scene.materials.iter().map(|material| material.name.as_str()).collect();
     let before = state.material;
     let title = |index: usize| title(&names, index);
     let list = ComboBox::from_id_salt("materials").width(ui.available_width()).truncate();
@@ -45,11 +57,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
             ui.weak("none has this in its name");
         }
     });
-    list.response.on_hover_text(format!("{}\nThe material that is shown and changed below.", names[before]));
-    if state.material != before {
-        // It shows the other one.
-        state.sheet = None;
-    }
+    list.response.on_hover_text(format!("{}\n{ABOUT}", names[before]));
 }
 
 /// What a material is called: names may repeat, or be empty, and then its number says which it is.

@@ -1,7 +1,7 @@
 //! The sweep and the sheet among other things that are done: what undo, redo, Esc and each other make of them.
 
 use super::*;
-use crate::viewer::sheet::Sheet;
+use crate::viewer::sheet::{Sheet, Tile};
 
 const CTRL: Modifiers = Modifiers { ctrl: true, ..Modifiers::COMMAND };
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..CTRL };
@@ -130,7 +130,7 @@ fn what_is_undone_below_the_sheet_is_seen_in_it() {
         window.context.load_texture("test", egui::ColorImage::filled([2, 2], egui::Color32::WHITE), Default::default());
     let draw = |window: &mut Window| {
         let sheet = window.state.sheet.as_mut().unwrap();
-        sheet.pictures.fill(Some(drawn.id()));
+        sheet.pictures.fill(Some(Tile { texture: drawn.id(), size: sheet.size }));
     };
     let missing = |window: &Window| window.state.sheet.as_ref().unwrap().missing();
     draw(&mut window);
@@ -173,4 +173,81 @@ fn nothing_below_the_sheet_hears_of_the_pointer() {
     window.pass(vec![Event::Zoom(1.5)]);
     assert!(window.state.sheet.is_some());
     assert_eq!((window.state.edits.clone(), window.state.outlined), (Edits::default(), None));
+}
+
+/// The sheet's picture of this alpha; the panel has pictures, too.
+fn cell(window: &Window, alpha: f32) -> &Node {
+    let name = format!("alpha {alpha}");
+    let named = window.nodes.iter().filter(|node| node.role() == Role::Button && node.label() == Some(&name));
+    let is_over_picture = |node: &&Node| place(node).is_some_and(|at| window.layout.picture.contains_rect(at));
+    named.into_iter().find(is_over_picture).unwrap()
+}
+
+fn marked(window: &Window) -> Vec<f32> {
+    let is_marked = |alpha: &f32| cell(window, *alpha).toggled() == Some(egui::accesskit::Toggled::True);
+    Sheet::ALPHAS.into_iter().filter(is_marked).collect()
+}
+
+#[test]
+fn the_picture_nearest_to_the_alpha_in_force_is_marked() {
+    // As the file has it, 0.3, and as it is set.
+    for (set, nearest) in [(None, 0.25), (Some(0.5), 0.5), (Some(0.98), 1.0), (Some(0.06), 0.0)] {
+        let mut window = Window::new(scene(1.0));
+        window.state.edits.materials.entry(0).or_default().alpha = set;
+        press_button(&mut window, "nine alphas");
+        assert_eq!(marked(&window), [nearest], "{set:?}");
+        let mut says = |alpha: f32| {
+            let at = place(cell(&window, alpha)).unwrap().center();
+            window.hover_text(at).unwrap()
+        };
+        let (text, other) = (says(nearest), says(0.75));
+        let is_told = match set {
+            Some(0.5) => text.contains("is the alpha now"),
+            set => {
+                text.contains(&format!("now, {}.", set.unwrap_or(0.3))) && text.contains(&format!("alpha {nearest}"))
+            }
+        };
+        assert!(is_told, "{text}");
+        assert!(other.contains("take alpha 0.75") && !other.contains("now"), "{other}");
+    }
+    // What the panel does meanwhile moves the mark.
+    let mut window = Window::new(scene(1.0));
+    press_button(&mut window, "nine alphas");
+    let number = window.in_row("alpha", Role::SpinButton)[0];
+    window.type_into(number, "0.7");
+    window.pass(vec![]);
+    assert_eq!(marked(&window), [0.75]);
+    // A material without a sheen has no alpha.
+    let switch = window.place(Role::CheckBox, "has a sheen").center();
+    window.click(switch);
+    window.pass(vec![]);
+    assert_eq!(marked(&window), [0.0; 0]);
+}
+
+/// The old ones are shown until the new ones are there.
+#[test]
+fn pictures_are_drawn_anew_where_the_window_changes_its_size() {
+    let mut window = Window::new(scene(1.0));
+    press_button(&mut window, "nine alphas");
+    let sheet = |window: &Window| window.state.sheet.as_ref().map(|sheet| (sheet.size, sheet.pictures)).unwrap();
+    let size = sheet(&window).0;
+    // A third of the picture, but for gaps and a caption.
+    let third = window.layout.picture.size() / 3.0;
+    assert!((third.x - 8.0 - size[0] as f32).abs() < 1.0 && (third.y - 28.0 - size[1] as f32).abs() < 1.0, "{size:?}");
+    let drawn = Tile { texture: egui::TextureId::User(7), size };
+    window.state.sheet.as_mut().unwrap().pictures.fill(Some(drawn));
+    window.pass(vec![]);
+    assert_eq!(window.state.sheet.as_ref().unwrap().missing(), None);
+    window.size -= vec2(200.0, 300.0);
+    window.rest(2);
+    let missing: Vec<usize> = std::iter::from_fn(|| {
+        let sheet = window.state.sheet.as_mut().unwrap();
+        let index = sheet.missing()?;
+        assert_eq!(sheet.pictures[index], Some(drawn));
+        assert!(sheet.size[0] < size[0] && sheet.size[1] < size[1]);
+        sheet.pictures[index] = Some(Tile { size: sheet.size, ..drawn });
+        Some(index)
+    })
+    .collect();
+    assert_eq!(missing, (0..9).collect::<Vec<_>>());
 }

@@ -110,3 +110,39 @@ fn keys_alone_do_not_fly() {
         assert_eq!(window.state.edits.camera, None);
     }
 }
+
+/// A French hand lies on Z, Q, S, D, which are where W, A, S, D are on a US keyboard.
+#[test]
+fn keys_fly_by_their_place_and_command_by_their_letter() {
+    let key = |key: Key, place: Key, pressed: bool| Event::Key {
+        key,
+        physical_key: Some(place),
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    for (letter, place, direction) in [
+        (Key::Z, Key::W, Vec3::NEG_Z),
+        (Key::Q, Key::A, Vec3::NEG_X),
+        (Key::S, Key::S, Vec3::Z),
+        (Key::W, Key::Z, Vec3::ZERO),
+    ] {
+        let mut window = Window::new(scene(1.0));
+        window.pass(vec![Event::PointerMoved(AT)]);
+        window.pass(vec![button(true)]);
+        let from = window.eye();
+        window.pass(vec![key(letter, place, true)]);
+        window.rest(30);
+        let flown = (window.eye() - from).normalize_or_zero();
+        assert!(flown.abs_diff_eq(direction, 1e-3), "{letter:?}: {flown}");
+        // It ends when the key is released, and when the window hears no more of keys.
+        let end = if letter == Key::Z { key(letter, place, false) } else { Event::WindowFocused(false) };
+        window.pass(vec![end]);
+        let there = window.eye();
+        window.rest(5);
+        assert_eq!(window.eye(), there, "{letter:?}");
+    }
+    let mut window = Window::new(scene(1.0));
+    window.pass(vec![key(Key::H, Key::J, true)]);
+    assert!(window.state.panel_hidden);
+}

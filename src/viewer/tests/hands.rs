@@ -193,6 +193,42 @@ fn a_double_click_centres_on_what_is_there() {
     }
 }
 
+/// Wherever in the picture it is, and however the view has been turned.
+#[test]
+fn what_is_double_clicked_is_in_the_middle_afterwards() {
+    use super::super::pick::{Picked, Ray, pick};
+    let drape = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/drape.glb");
+    let scene = crate::scene::gltf::load(drape.as_ref(), &crate::scene::gltf::Options::default()).unwrap();
+    let picked = |window: &Window, at: Pos2| -> Option<Picked> {
+        let picture = window.layout.picture;
+        let share = (at - picture.min) / picture.size();
+        let ray = Ray::new(&window.state.camera(), picture.aspect_ratio(), glam::Vec2::new(share.x, share.y));
+        pick(&window.state.drawn(), &ray)
+    };
+    for projection in [scene.cameras[0].projection, Projection::Orthographic { ymag: 1.5, near: 0.01, far: 100.0 }] {
+        for (right, down) in [(0.3, 0.2), (0.45, 0.5), (0.6, 0.8), (0.1, 0.9)] {
+            let mut turned = scene.clone();
+            turned.cameras[0].projection = projection;
+            let mut window = Window::of_size(turned, vec2(1280.0, 720.0));
+            window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(360.0, 330.0));
+            window.wait(2.0);
+            let picture = window.layout.picture;
+            let at = picture.min + picture.size() * vec2(right, down);
+            let before = picked(&window, at).unwrap();
+            let off = seen(&window, before.point) - at;
+            assert!(off.length() < 1.0, "{off} before, at {at}");
+            window.click(at);
+            assert_eq!(window.click(at), Change::Drawn);
+            let off = seen(&window, before.point) - picture.center();
+            assert!(off.length() < 1.0, "{off} after a double-click at {at}, {projection:?}");
+            // The other way round: what a ray through the middle meets. A pixel of it may be much of what is seen askance.
+            let after = picked(&window, picture.center()).unwrap();
+            let off = seen(&window, after.point) - seen(&window, before.point);
+            assert!(off.length() < 1.0 && after.instance == before.instance, "{off}, {after:?} for {before:?}");
+        }
+    }
+}
+
 #[test]
 fn f_frames_what_was_clicked_or_all() {
     let mut window = Window::new(pair());
@@ -237,6 +273,51 @@ fn f_frames_what_stands_before_a_backdrop() {
     assert!(window.state.clicked_bounds().is_some());
     window.press(Key::F);
     assert!(window.state.orbit().distance > 10.0);
+}
+
+/// Seen from the front it would be a line without a width.
+#[test]
+fn f_frames_a_floor_so_that_it_is_seen() {
+    let mut floor = scene(1.0);
+    let lying = Mat4::from_rotation_x(-0.5 * std::f32::consts::PI);
+    floor.instances.iter_mut().for_each(|instance| instance.world_from_mesh = lying);
+    let mut window = Window::new(floor);
+    window.press(Key::Num1);
+    window.press(Key::F);
+    let [origin, right, far] =
+        [Vec3::ZERO, Vec3::X, Vec3::NEG_Z].map(|corner| seen(&window, corner) - window.layout.picture.center());
+    let picture = window.layout.picture.size();
+    assert!([origin, right, far].iter().all(|at| at.x.abs() < 0.5 * picture.x && at.y.abs() < 0.5 * picture.y));
+    assert!((right - origin).x > 0.7 * picture.x && (origin - far).y > 0.03 * picture.y, "{origin} {right} {far}");
+    assert_eq!(window.state.orbit().azimuth, 0.0);
+    // From above it is seen as it is.
+    window.press(Key::Num7);
+    let before = window.state.orbit();
+    window.press(Key::F);
+    let after = window.state.orbit();
+    assert!((after.elevation - before.elevation).abs() < 1e-6 && after.azimuth == before.azimuth);
+}
+
+/// A scene of one point has no size to go by.
+#[test]
+fn a_scene_without_extent_leaves_the_view_sound() {
+    for at in [Vec3::ZERO, Vec3::new(3.0, 1.0, -2.0)] {
+        let mut point = scene(1.0);
+        point.meshes[0].positions = vec![at; 3];
+        point.lights.clear();
+        let mut window = Window::new(point);
+        for key in [Key::F, Key::Num1, Key::F, Key::Num7, Key::F, Key::ArrowUp] {
+            window.press(key);
+            roll(&mut window, BESIDE, 1.0);
+            roll(&mut window, BESIDE, -2.0);
+            let (camera, orbit) = (camera(&window), window.state.orbit());
+            assert!(camera.is_finite() && orbit.target.is_finite(), "{key:?}: {orbit:?}");
+            // Squares of such distances are still numbers.
+            assert!(orbit.distance > 1e-17, "{key:?}: {orbit:?}");
+            let inverse = camera.inverse();
+            assert!(inverse.is_finite() && inverse.transform_point3(at).z < 0.0, "{key:?}: {orbit:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The parts of the panel: presets, alpha, the list of materials, messages.
 
 use super::*;
-use crate::viewer::sheet::Sheet;
+use crate::viewer::sheet::{Sheet, Tile};
 
 #[test]
 fn a_chip_sets_all_of_a_material_and_shows_that_it_is_in_force() {
@@ -26,6 +26,23 @@ fn a_chip_sets_all_of_a_material_and_shows_that_it_is_in_force() {
     let place = window.in_row("roughness", Role::SpinButton)[0];
     window.type_into(place, "0.9");
     assert!(!is_selected(&window, "dusty metal"));
+}
+
+/// The scene's materials may be called as chips are: what is a name of the scene's says so, and stays.
+#[test]
+fn names_of_the_scene_are_told_from_chips() {
+    let mut window = full();
+    let chip = window.place(Role::Button, "moss").center();
+    window.click(chip);
+    window.pass(vec![]);
+    let list = window.in_row("in the scene", Role::ComboBox)[0];
+    let says = window.nodes.iter().find(|node| place(node) == Some(list)).and_then(|node| node.value());
+    assert_eq!(says, Some("0 velvet"));
+    let text = window.hover_text(list.center()).unwrap();
+    assert!(text.starts_with("velvet\n") && text.contains("name stays"), "{text}");
+    // Where there is but one, there is nothing to pick.
+    let one = Window::new(scene(1.0));
+    assert!(one.nodes.iter().all(|node| node.value() != Some("in the scene")));
 }
 
 #[test]
@@ -114,8 +131,7 @@ fn a_sheet_of_nine_lies_over_the_picture_and_one_is_taken() {
 fn a_sheet_whose_scene_has_changed_begins_anew() {
     let mut window = full();
     let mut sheet = Sheet::new(&window.state.edits, 0);
-    let image = egui::ColorImage::filled([2, 2], egui::Color32::WHITE);
-    sheet.pictures[3] = Some(window.context.load_texture("test", image, Default::default()).id());
+    sheet.pictures[3] = Some(Tile { texture: egui::TextureId::User(7), size: [2; 2] });
     window.state.sheet = Some(sheet);
     let is_kept = |window: &Window| window.state.sheet.as_ref().unwrap().pictures[3].is_some();
     // Alpha is none of what they have in common.
@@ -284,4 +300,40 @@ fn a_small_window_reaches_everything() {
     for row in ["alpha", "sheen colour", "layering", "roughness", "exposure", "ambient light", "radiance", "position"] {
         assert!(seen.contains(row), "{row} is not in {seen:?}");
     }
+}
+
+/// What is out of sight costs nothing but its room.
+#[test]
+fn a_thousand_lights_are_laid_out_where_they_are_seen() {
+    let mut many = scene(1.0);
+    many.lights = vec![many.lights[0].clone(); 1000];
+    let mut window = Window::of_size(many, vec2(1280.0, 720.0));
+    let listed = |window: &Window| -> Vec<usize> {
+        let titles = window.nodes.iter().filter_map(|node| node.label()?.strip_prefix("key (")?.strip_suffix(')'));
+        titles.map(|number| number.parse().unwrap()).collect()
+    };
+    assert!((1..100).contains(&listed(&window).len()), "{}", listed(&window).len());
+    let scroll = |window: &mut Window, delta: f32| {
+        let (unit, phase) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move);
+        let source = egui::MouseWheelSource::Wheel;
+        let (delta, modifiers) = (vec2(0.0, delta), Modifiers::NONE);
+        window.pass(vec![Event::PointerMoved(pos2(1100.0, 300.0))]);
+        window.pass(vec![Event::MouseWheel { unit, delta, phase, source, modifiers }]);
+        window.rest(40);
+    };
+    // All of them have their room: the last is at the very end.
+    scroll(&mut window, -1e6);
+    let last = window.place(Role::DisclosureTriangle, "key (1000)");
+    assert!(last.max.y < 660.0 && !listed(&window).contains(&1));
+    // One that is opened there works, and stays open while it is out of sight.
+    window.click(last.center());
+    window.rest(40);
+    scroll(&mut window, -1e6);
+    let radiance = window.in_row("radiance", Role::SpinButton)[0];
+    window.type_into(radiance, "3");
+    assert_eq!(window.state.edits.of_light(999).strength, Some(3.0));
+    scroll(&mut window, 1e6);
+    assert!(!listed(&window).contains(&1000));
+    scroll(&mut window, -1e6);
+    assert_eq!(window.in_row("radiance", Role::SpinButton), [radiance]);
 }
