@@ -107,6 +107,7 @@ impl Picture {
         });
         report.notice = self.renderer.notice().map(str::to_owned);
         report.left = match self.resting.is_finished() {
+            _ if self.is_foreign => Left::More,
             _ if self.building.is_some() => Left::Built,
             true => Left::Nothing,
             false if self.resting.is_coarse() => Left::Rest,
