@@ -29,6 +29,8 @@ const BLOCKERS_SPAN = 1048576.0;
 const BLOCKERS_NODE = 5u;
 const BLOCKERS_TRIANGLE = 3u;
 const BLOCKERS_LOOK = 2u;
+// Texels in a row are two to this power.
+const BLOCKERS_ROW = 13u;
 
 const BLOCKERS_REPEAT = 0u;
 const BLOCKERS_MIRROR = 1u;
@@ -41,7 +43,7 @@ const BLOCKERS_MIRROR = 1u;
 @group(2) @binding(2) var blockers_alphas: texture_2d_array<f32>;
 
 fn blockers_node(index: u32) -> vec4u {
-    return textureLoad(blockers_nodes, numbers_place(index));
+    return textureLoad(blockers_nodes, numbers_place(index, BLOCKERS_ROW));
 }
 
 fn blockers_triangle(index: u32) -> BlockersTriangle {

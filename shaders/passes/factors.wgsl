@@ -16,7 +16,7 @@ struct Factors {
     occlusion_strength: f32,
     alpha_cutoff: f32,
     layering: u32,
-    // What is left of the base where layering is none of the constants above.
+    // What is left of the base where layering is none of MATERIAL_LAYERING_...
     manual: f32,
 }
 

@@ -11,7 +11,7 @@ struct Frame {
     emission: f32,
     // The camera's place. Interpolated positions are relative to it: drivers err by a share of what they interpolate.
     origin: vec3f,
-    // Where numbers_all has the lights, and their outlines.
+    // Where numbers_all has the lights,
     first_light: u32,
     ambient: vec3f,
     // Radiance is multiplied by this before it is stored, so that the targets' floats cover the range that the screen shows.
@@ -20,6 +20,7 @@ struct Frame {
     sample: u32,
     footprint: f32,
     seed: u32,
+    // and their outlines.
     first_vertex: u32,
 }
 

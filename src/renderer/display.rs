@@ -159,7 +159,8 @@ impl DisplayPass {
                 (textures.to_vec(), *size, *gain, shares.is_some())
             }
         };
-        // In another size it is shown through a picture of its own size.
+        // In another size it is shown through a picture of its own size, whose format can be filtered.
+        assert!(!self.measured || [place.width, place.height] == size, "measured in {size:?}, and shown in {place:?}");
         let coarse = ([place.width, place.height] != size).then(|| {
             let enlargement = self.enlargement.get_or_insert_with(|| Enlargement::new(device, self.output));
             enlargement.picture(device, size)
@@ -172,10 +173,8 @@ impl DisplayPass {
         let variant = Variant { tone_curve: showing.tone_curve(), filtered };
         let pipeline = self.pipeline(device, variant);
         fullscreen::run(encoder, (pipeline, &bind_group), &[target], Some([x, y, width, height]));
-        if coarse.is_some()
-            && let Some(enlargement) = &mut self.enlargement
-        {
-            enlargement.encode((device, queue), encoder, (output, place));
+        if let (Some(coarse), Some(enlargement)) = (&coarse, &mut self.enlargement) {
+            enlargement.encode((device, queue), encoder, coarse, (output, place));
         }
     }
 

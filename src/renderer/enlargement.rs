@@ -55,14 +55,14 @@ impl Enlargement {
         self.picture.insert(picture).1.clone()
     }
 
-    /// Shows it in the rectangle `place` of the output. What lies around it becomes black.
+    /// Shows the picture in the rectangle `place` of the output. What lies around it becomes black.
     pub fn encode(
         &mut self,
         (device, queue): (&Device, &Queue),
         encoder: &mut CommandEncoder,
+        picture: &TextureView,
         (output, place): (&TextureView, Rect),
     ) {
-        let Some((_, picture)) = &self.picture else { return };
         let Rect { x, y, width, height } = place;
         let uniforms = Uniforms { origin: [x as f32, y as f32], size: [width as f32, height as f32] };
         self.uniforms.write(queue, bytemuck::bytes_of(&uniforms));

@@ -30,6 +30,17 @@ pub(super) fn differences(wgsl: &str, name: &str, size: usize, members: &[(&str,
     differences
 }
 
+/// The value of a WGSL constant, a literal.
+pub(super) fn constant(wgsl: &str, name: &str) -> u32 {
+    let module = naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
+    let found = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name));
+    let value = found.map(|(_, constant)| &module.global_expressions[constant.init]);
+    match value {
+        Some(naga::Expression::Literal(naga::Literal::U32(value))) => *value,
+        other => panic!("{name} is {other:?}"),
+    }
+}
+
 #[test]
 fn differences_are_found() {
     let wgsl = "struct Light { color: vec3f, power: f32, place: vec4f } @group(0) @binding(0) var<uniform> l: Light;";

@@ -1,29 +1,23 @@
 //! Textures of numbers, read by their place: four words a texel, in rows one after the other.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
-
 use wgpu::{BindingResource, BindingType, Device, Queue, StorageTextureAccess, Texture, TextureFormat, TextureView};
 
+use super::tracked_buffer::hash;
 use super::{Gpu, RenderError};
 
 /// A texel.
 pub(super) type Words = [u32; 4];
 
-pub(super) const FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
+const FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 
-/// Texels in a row: two to the power of `NUMBERS_ROW` of `numbers.wgsl`.
-pub(super) const ROW: usize = 1 << 13;
+/// Texels in a row of what every pixel reads: two to the power of `NUMBERS_ROW` of `numbers.wgsl`, and no more than any device has room for.
+const ROW: usize = 1 << 11;
 
-/// Rows of so many texels.
-pub(super) fn rows(texels: usize) -> usize {
-    texels.div_ceil(ROW)
-}
-
-/// A texture of so many rows, or one.
-pub(super) fn numbers(device: &Device, label: &str, rows: usize) -> Texture {
+/// A texture of rows of so many texels, and of so many rows, or one.
+pub(super) fn numbers(device: &Device, label: &str, [row, rows]: [usize; 2]) -> Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: ROW as u32, height: rows.max(1) as u32, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width: row as u32, height: rows.max(1) as u32, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -35,7 +29,8 @@ pub(super) fn numbers(device: &Device, label: &str, rows: usize) -> Texture {
 
 /// Writes rows from one on: whole ones where there are several; what is beyond the texels does not count.
 pub(super) fn write(queue: &Queue, texture: &Texture, first_row: usize, mut texels: Vec<Words>) {
-    let (rows, width) = (rows(texels.len()), texels.len().min(ROW));
+    let row = texture.width() as usize;
+    let (rows, width) = (texels.len().div_ceil(row), texels.len().min(row));
     if rows == 0 {
         return;
     }
@@ -75,14 +70,14 @@ impl TrackedNumbers {
     /// Fails where they are more than a texture holds; `what` they are.
     pub fn new(gpu: &Gpu, what: &str, texels: Vec<Words>) -> Result<Self, RenderError> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
-        let rows = rows(texels.len());
+        let rows = texels.len().div_ceil(ROW);
         if rows > limit as usize {
             let [bytes, limit] =
                 [texels.len(), limit as usize * ROW].map(|texels| (texels * size_of::<Words>()) as u64);
             return Err(RenderError::TooLarge { what: what.to_owned(), bytes, limit });
         }
-        let texture = numbers(&gpu.device, what, rows);
-        let hash = hash(&texels);
+        let texture = numbers(&gpu.device, what, [ROW, rows]);
+        let hash = hash(bytemuck::cast_slice(&texels));
         write(&gpu.queue, &texture, 0, texels);
         let view = texture.create_view(&Default::default());
         Ok(Self { texture, view, hash })
@@ -94,11 +89,11 @@ impl TrackedNumbers {
 
     /// Writes numbers; whether that took another texture, because they have grown.
     pub fn write(&mut self, gpu: &Gpu, what: &str, texels: Vec<Words>) -> Result<bool, RenderError> {
-        if rows(texels.len()) > self.texture.height() as usize {
+        if texels.len().div_ceil(ROW) > self.texture.height() as usize {
             *self = Self::new(gpu, what, texels)?;
             return Ok(true);
         }
-        let hash = hash(&texels);
+        let hash = hash(bytemuck::cast_slice(&texels));
         if hash != self.hash {
             self.hash = hash;
             write(&gpu.queue, &self.texture, 0, texels);
@@ -107,8 +102,16 @@ impl TrackedNumbers {
     }
 }
 
-fn hash(texels: &[Words]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    texels.hash(&mut hasher);
-    hasher.finish()
+#[cfg(test)]
+mod tests {
+    use super::super::layout::constant;
+    use super::super::shader::SURFACES_WGSL;
+    use super::*;
+
+    #[test]
+    fn rows_are_as_long_as_the_shader_takes_them_to_be() {
+        assert_eq!(constant(SURFACES_WGSL, "NUMBERS_ROW"), ROW.ilog2());
+        // A device that has no more than every scene needs has room for them.
+        assert!(ROW <= super::super::device::needed_limits().max_texture_dimension_2d as usize);
+    }
 }

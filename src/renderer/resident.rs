@@ -92,8 +92,8 @@ impl Resident {
         })
     }
 
-    /// Uploads the present values of materials, lights and instances. Returns whether buffers were made anew, which
-    /// happens where their contents have grown. Meshes and textures stay as they are.
+    /// Uploads the present values of materials, lights and instances. Returns whether buffers or textures were made
+    /// anew, which happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
         let contents = Contents::new(drawn, &self.mesh_bounds, &mut self.patterns);
         self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));

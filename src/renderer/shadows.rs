@@ -9,7 +9,7 @@ use wgpu::{BindGroup, BindGroupLayout, BufferUsages, Device, Limits, Queue, Shad
 
 use super::Gpu;
 use super::blockers::{Gathered, Kind, MOST_LOOKS, Opacities, Tree, emitting_triangles, most_nodes};
-use super::numbers::{self, ROW, Words, rows};
+use super::numbers::{self, Words};
 use super::tracked_buffer::TrackedBuffer;
 use crate::bvh::units;
 use crate::scene::{AlphaMode, Drawn, Instance};
@@ -191,6 +191,14 @@ fn lack_of_rows(limits: &Limits, [nodes, all]: [usize; 2]) -> Option<String> {
     (all > most).then(|| said(all, most))
 }
 
+/// Texels in a row of the trees' texture: two to the power of `BLOCKERS_ROW` of `blockers.wgsl`.
+const ROW: usize = 1 << 13;
+
+/// Rows of so many texels.
+fn rows(texels: usize) -> usize {
+    texels.div_ceil(ROW)
+}
+
 const WITHOUT: &str = "the picture is drawn without shadows";
 /// The most rows of nodes: `rays.wgsl` keeps a node's number in 24 bits.
 const NODE_ROWS: usize = (NODE << 24) / ROW;
@@ -219,7 +227,7 @@ impl ResidentTrees {
             return Err(lack);
         }
         others.place(root / NODE, first_triangle / TRIANGLE, first_record);
-        let numbers = numbers::numbers(device, "blockers", node_rows + triangle_rows);
+        let numbers = numbers::numbers(device, "blockers", [ROW, node_rows + triangle_rows]);
         let mut words: Vec<Words> = bytemuck::cast_vec(others.nodes);
         words.extend(opacities.records.as_flattened());
         words.extend(opacities.looks.as_flattened());
@@ -309,17 +317,12 @@ pub(super) fn bind_group_layout(device: &Device) -> BindGroupLayout {
     use wgpu::{BindingType, TextureSampleType, TextureViewDimension};
     let blockers =
         BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
-    let numbers = BindingType::StorageTexture {
-        access: wgpu::StorageTextureAccess::ReadOnly,
-        format: numbers::FORMAT,
-        view_dimension: TextureViewDimension::D2,
-    };
     let alphas = BindingType::Texture {
         sample_type: TextureSampleType::Float { filterable: false },
         view_dimension: TextureViewDimension::D2Array,
         multisampled: false,
     };
-    let types = [blockers, numbers, alphas];
+    let types = [blockers, numbers::binding(), alphas];
     let entry =
         |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None };
     let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..).zip(types).map(entry).collect();

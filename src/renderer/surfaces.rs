@@ -112,7 +112,7 @@ impl SurfacesPass {
         self.made.len()
     }
 
-    /// Binds buffers that were made anew.
+    /// Binds what was made anew.
     pub(super) fn rebind(&mut self, device: &Device, resident: &Resident) {
         self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);
     }

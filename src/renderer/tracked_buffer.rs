@@ -6,8 +6,7 @@ use std::hash::{DefaultHasher, Hasher};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindingResource, Buffer, BufferUsages, Device, Queue};
 
-/// A buffer and a hash of what it holds, which takes no memory however large the buffer is. Two contents in 2^64 have
-/// the same one.
+/// A buffer and a hash of what it holds, which takes no memory however large the buffer is.
 pub(super) struct TrackedBuffer {
     buffer: Buffer,
     hash: u64,
@@ -40,7 +39,8 @@ impl TrackedBuffer {
     }
 }
 
-fn hash(contents: &[u8]) -> u64 {
+/// Two contents in 2^64 have the same one.
+pub(super) fn hash(contents: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     hasher.write(contents);
     hasher.finish()

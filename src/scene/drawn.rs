@@ -51,7 +51,7 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
-    /// The material of this index alone, as it is drawn: what `materials` of all this would have.
+    /// The material of this index as it is drawn, found without all the others.
     pub fn material(scene: &Scene, edits: &Edits, index: usize) -> Material {
         edited_material(scene, edits, index, none_has_sheen(scene))
     }

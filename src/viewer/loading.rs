@@ -21,8 +21,8 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// Starts to load the scene of this name on a thread of its own. `load` may say what it is at; the scene has a camera and a
-    /// material.
+    /// Starts to load the scene of this name on a thread of its own. `load` may say what it is at; the scene has a camera, a
+    /// material and something that is drawn.
     pub fn start(
         name: &str,
         load: impl FnOnce(&dyn Fn(&'static str)) -> Result<(Scene, Edits), String> + Send + 'static,

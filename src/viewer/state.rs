@@ -21,7 +21,7 @@ pub struct State {
     pub name: String,
     pub scene: Arc<Scene>,
     pub edits: Edits,
-    /// The edits as the last pass has left them.
+    /// The edits as the last pass that changed something has left them.
     pub shown: Edits,
     /// The material that the panel shows.
     pub material: usize,
@@ -69,7 +69,7 @@ pub struct State {
 const STEPS: f64 = 500.0;
 
 impl State {
-    /// The state right after loading. Panics where the scene has no camera or no material.
+    /// The state right after loading. Panics where the scene has no camera or no material; something in it is drawn.
     pub fn new(name: &str, scene: Scene, edits: Edits) -> Self {
         assert!(!scene.cameras.is_empty() && !scene.materials.is_empty(), "{name}: a scene without camera or material");
         let drawn = Drawn::new(&scene, &edits);

@@ -70,7 +70,9 @@ fn a_coarse_picture_is_interpolated_in_its_place() {
     let view = View::new(&camera, SIZE, Rect::full(SIZE));
     let showing = Showing::Shown { exposure: 0.0, tone: drawn.settings.tone };
     for samples in [1, 4] {
-        let Some(radiance) = RadianceFormat::display(&gpu.adapter, samples) else { continue };
+        let radiance = RadianceFormat::display(&gpu.adapter, samples);
+        // Not every adapter has four samples a pixel.
+        let Some(radiance) = radiance.or_else(|| (samples == 1).then(|| panic!("no format"))) else { continue };
         let format = Format { radiance, output: OUTPUT, measured: false };
         let mut renderer = Renderer::new(&gpu, format, &SheenTable::embedded(), &drawn).unwrap();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -1,6 +1,7 @@
 //! On a device.
 
 mod enlargement;
+mod numbers;
 mod outline;
 mod reprojection;
 mod traversal;

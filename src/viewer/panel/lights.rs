@@ -1,6 +1,6 @@
 //! The part of the panel that shows the lights.
 
-use egui::{CollapsingHeader, Rangef, Ui, vec2};
+use egui::{CollapsingHeader, Pos2, Rangef, Rect, Ui, vec2};
 use glam::Vec3;
 
 use super::super::state::State;
@@ -19,24 +19,33 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     if state.scene.lights.is_empty() {
         ui.weak("no lights with an area");
     }
+    let held = held(ui);
     for index in 0..state.scene.lights.len() {
-        in_sight(ui, index, |ui| section(ui, state, index, few));
+        in_sight(ui, index, held, |ui| section(ui, state, index, few));
     }
 }
 
-/// Lays out the item of this index; where it is far out of sight, the room that it took last.
-fn in_sight(ui: &mut Ui, index: usize, add: impl FnOnce(&mut Ui)) {
-    let id = ui.scope_id().with(("height", index));
-    let known: Option<f32> = ui.data(|data| data.get_temp(id));
+/// Lays out the item of this index; where it is far out of sight, and nothing in it is typed or dragged, the room that it took last.
+fn in_sight(ui: &mut Ui, index: usize, held: Option<Pos2>, add: impl FnOnce(&mut Ui)) {
+    let id = ui.scope_id().with(("place", index));
+    let known: Option<Rect> = ui.data(|data| data.get_temp(id));
     let seen = ui.clip_rect();
     let near = seen.y_range().expand(seen.height());
     let top = ui.cursor().min.y;
-    if let Some(height) = known.filter(|height| !near.intersects(Rangef::new(top, top + height))) {
-        ui.allocate_space(vec2(ui.available_width(), height));
+    let is_far = |place: &Rect| !near.intersects(Rangef::new(top, top + place.height()));
+    let is_held = |place: &Rect| held.is_some_and(|at| place.contains(at));
+    if let Some(place) = known.filter(|place| is_far(place) && !is_held(place)) {
+        ui.allocate_space(vec2(ui.available_width(), place.height()));
         return;
     }
-    let height = ui.scope(add).response.rect.height();
-    ui.data_mut(|data| data.insert_temp(id, height));
+    let place = ui.scope(add).response.rect;
+    ui.data_mut(|data| data.insert_temp(id, place));
+}
+
+/// Where the control is that has the focus, or is dragged.
+fn held(ui: &Ui) -> Option<Pos2> {
+    let id = ui.memory(|memory| memory.focused()).or_else(|| ui.dragged_id())?;
+    ui.read_response(id).map(|response| response.rect.center())
 }
 
 /// A light under its name, open at first where there are few.

@@ -332,7 +332,15 @@ fn a_thousand_lights_are_laid_out_where_they_are_seen() {
     let radiance = window.in_row("radiance", Role::SpinButton)[0];
     window.type_into(radiance, "3");
     assert_eq!(window.state.edits.of_light(999).strength, Some(3.0));
+    // What is being typed is not lost there.
+    window.wait(2.0);
+    window.click(radiance.center());
+    window.pass(vec![Event::Text("5".to_owned())]);
     scroll(&mut window, 1e6);
+    assert!(listed(&window).contains(&1) && listed(&window).contains(&1000));
+    window.press(Key::Enter);
+    assert_eq!(window.state.edits.of_light(999).strength, Some(5.0));
+    window.rest(2);
     assert!(!listed(&window).contains(&1000));
     scroll(&mut window, -1e6);
     assert_eq!(window.in_row("radiance", Role::SpinButton), [radiance]);
