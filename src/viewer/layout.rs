@@ -5,7 +5,7 @@ use egui::{Align2, Area, Id, Rect, Ui};
 use super::change::Change;
 use super::request::Request;
 use super::state::State;
-use super::{keys, navigate, panel, sheet_view};
+use super::{files, keys, navigate, panel, sheet_view};
 
 /// The outcome of a pass over the user interface.
 pub struct Layout {
@@ -48,6 +48,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     if state.keys_shown {
         state.keys_shown = keys::show(ui);
     }
+    request = files::show(ui).or(request);
     if is_narrow(area) {
         fold_button(ui, picture, state);
     }

@@ -51,8 +51,13 @@ impl Loading {
         self.task.wait(patience)
     }
 
+    /// What is going on.
+    pub(super) fn what(&self) -> String {
+        format!("loading {}", file_name(&self.name))
+    }
+
     /// What it is at, and for how long it has been going on.
-    fn said(&self) -> String {
+    pub(super) fn said(&self) -> String {
         let stage = *self.stage.lock().unwrap_or_else(PoisonError::into_inner);
         format!("{stage}, {} s", self.since.elapsed().as_secs())
     }

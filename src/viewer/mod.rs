@@ -4,6 +4,7 @@
 
 mod change;
 mod commands;
+mod files;
 mod frame;
 mod frame_time;
 mod hands;
@@ -39,6 +40,7 @@ mod window_size;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
+pub use files::Files;
 pub use loading::Loading;
 
 use crate::renderer::{DeviceError, RenderError};
@@ -80,9 +82,15 @@ pub fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     })
 }
 
-/// Shows the scene, at first with the edits that come with it, until the window is closed. The window does not wait for it.
-pub fn run(event_loop: EventLoop<()>, loading: Loading, table: SheenTable) -> Result<(), ViewerError> {
-    let mut app = window::App::new(loading, table, event_loop.create_proxy());
+/// Shows the scene, at first with the edits that come with it, until the window is closed. The window does not wait for it. Other
+/// files are read by `files`.
+pub fn run(
+    event_loop: EventLoop<()>,
+    loading: Loading,
+    files: Box<dyn Files>,
+    table: SheenTable,
+) -> Result<(), ViewerError> {
+    let mut app = window::App::new((loading, files), table, event_loop.create_proxy());
     event_loop.run_app(&mut app).map_err(|error| ViewerError::Window(error.to_string()))?;
     app.failure.map_or(Ok(()), Err)
 }

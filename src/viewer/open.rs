@@ -47,7 +47,7 @@ pub(super) struct Open {
     /// When it gets its next; never while nothing happens.
     pub due: Option<Instant>,
     /// What the title says that is being done.
-    pub titled: Option<&'static str>,
+    pub titled: Option<String>,
     painter: Worker<Order, Result<Report, ViewerError>>,
     /// Since when the painter has had an order.
     busy: Option<Instant>,
@@ -71,6 +71,10 @@ pub(super) struct Open {
     asked: Option<Edits>,
     /// Whether egui wants its next pass as soon as the painter is free.
     pub is_eager: bool,
+    /// Whether the order that the painter has is about a scene that is shown no more.
+    is_outdated: bool,
+    /// What the painter makes of a scene that it has been given.
+    verdict: Option<Result<(), String>>,
 }
 
 impl Open {
@@ -112,9 +116,24 @@ impl Open {
             tiles: Vec::new(),
             asked: None,
             is_eager: false,
+            is_outdated: false,
+            verdict: None,
         };
         open.fit();
         Ok(open)
+    }
+
+    /// Another scene is shown from now on.
+    pub fn begin(&mut self) {
+        self.screen.begin();
+        (self.is_outdated, self.verdict) = (self.busy.is_some(), None);
+        self.left = Left::Nothing;
+        self.wake_in(Duration::ZERO);
+    }
+
+    /// What the painter has made of a scene that it was given, told once: whether it draws it, or why not.
+    pub fn verdict(&mut self) -> Option<Result<(), String>> {
+        self.verdict.take()
     }
 
     /// Makes the user interface of the size that finds room in the window.
@@ -185,6 +204,15 @@ impl Open {
     /// Takes in what the painter has told, if it has; whether there is something new to show of it.
     pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
         let Some(report) = self.report()? else { return Ok(false) };
+        if let Some(saved) = report.saved {
+            let comment = self.comment.take().unwrap_or_default();
+            state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
+            return Ok(true);
+        }
+        if std::mem::take(&mut self.is_outdated) {
+            self.tiles.extend(report.tile.map(|(_, tile)| tile.texture));
+            return Ok(true);
+        }
         let said = |state: &State| (state.samples, state.notice.clone(), state.metered, state.doing, state.frame_time);
         let before = said(state);
         (self.announced, state.doing) = (report.about_to.is_some(), report.about_to);
@@ -192,6 +220,7 @@ impl Open {
             self.left = Left::More;
             return Ok(true);
         }
+        self.verdict = Some(report.refused.map_or(Ok(()), Err));
         self.left = report.left;
         (state.samples, state.notice) = (report.samples, report.notice);
         state.metered = report.metered.or(state.metered);
@@ -210,11 +239,6 @@ impl Open {
         if let Some(advice) = report.advice {
             state.notices.push(advice.clone());
             state.say(advice);
-            return Ok(true);
-        }
-        if let Some(saved) = report.saved {
-            let comment = self.comment.take().unwrap_or_default();
-            state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
             return Ok(true);
         }
         Ok(before != said(state))

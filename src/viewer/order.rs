@@ -87,6 +87,8 @@ pub struct Report {
     pub unseen: Option<Unseen>,
     /// Nothing has been done, because it will take long for this reason: the order is to be given again, announced.
     pub about_to: Option<&'static str>,
+    /// Why the scene cannot be drawn, where another one could be before.
+    pub refused: Option<String>,
     /// What is left to do although nothing changes.
     pub left: Left,
     /// Samples of the picture's shadows so far, and how many there will be; none where it has none.

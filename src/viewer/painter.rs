@@ -20,12 +20,14 @@ pub(super) struct Painter {
     context: egui::Context,
     table: SheenTable,
     picture: Option<Picture>,
+    /// Whether a scene has been drawn.
+    has_drawn: bool,
 }
 
 impl Painter {
     /// `context` is that of the passes whose shapes orders bring.
     pub fn new(gpu: Gpu, frame: Frame, context: egui::Context, table: SheenTable) -> Self {
-        Self { gpu, frame, context, table, picture: None }
+        Self { gpu, frame, context, table, picture: None, has_drawn: false }
     }
 
     /// Does what is asked for, and says what became of it.
@@ -43,6 +45,8 @@ impl Painter {
             self.present(None, place, &mut report)?;
             return Ok(report);
         };
+        // Another scene's goes before this one's comes: there may be no room for both.
+        self.picture.take_if(|picture| !picture.is_of(&shot));
         if announced {
             self.present(Some(&shot), place, &mut report)?;
         }
@@ -75,9 +79,17 @@ impl Painter {
             }
             None => {
                 let format = self.frame.format(&self.gpu)?;
-                self.picture.insert(Picture::new(&self.gpu, format, &self.table, shot)?)
+                match Picture::new(&self.gpu, format, &self.table, shot) {
+                    Ok(picture) => self.picture.insert(picture),
+                    Err(error) if self.has_drawn => {
+                        report.refused = Some(error.to_string());
+                        return Ok(());
+                    }
+                    Err(error) => return Err(error.into()),
+                }
             }
         };
+        self.has_drawn = true;
         picture.receive(&self.gpu, shot, [in_pixels.width, in_pixels.height])?;
         report.about_to = picture.about_to(shot).filter(|_| !announced);
         if report.about_to.is_none() && (picture.advance(&self.gpu, shot, report)? || stale) {

@@ -1,5 +1,7 @@
 //! The picture of the scene: what of it is drawn when, from the first coarse pixels to the last sample.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 
 use super::change::Change;
@@ -9,7 +11,7 @@ use super::order::{Left, Report, Shot};
 use super::resting::{Can, Resting, Step};
 use crate::picture::Blank;
 use crate::renderer::{Built, Format, Gpu, Rect, RenderError, Renderer, SAMPLES, Sample, Showing, View};
-use crate::scene::{Camera, Settings};
+use crate::scene::{Camera, Scene, Settings};
 use crate::table::SheenTable;
 
 /// Triangles that are sorted for shadows within a frame; more are on a thread of their own.
@@ -20,6 +22,7 @@ const SAMPLE: Sample = Sample { index: 0, seed: 0, spread: true };
 
 /// A scene on the device, and how far its picture has come.
 pub(super) struct Picture {
+    scene: Arc<Scene>,
     renderer: Renderer,
     /// Its width and height in pixels.
     size: [u32; 2],
@@ -57,6 +60,7 @@ fn is_near(camera: &Camera, other: &Camera, center: Vec3) -> bool {
 impl Picture {
     pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, shot: &Shot) -> Result<Self, RenderError> {
         Ok(Self {
+            scene: shot.scene.clone(),
             renderer: Renderer::new(gpu, format, table, &shot.drawn())?,
             size: [0; 2],
             undrawn: Change::Lights,
@@ -69,6 +73,11 @@ impl Picture {
             remembered: None,
             center: shot.scene.subject().center(),
         })
+    }
+
+    /// Whether it is one of the scene that is to be shown.
+    pub fn is_of(&self, shot: &Shot) -> bool {
+        Arc::ptr_eq(&self.scene, &shot.scene)
     }
 
     /// Takes in what has changed. To be called before anything else is done for an order.

@@ -1,7 +1,9 @@
 //! What the user asks for that takes more than a change of the edits.
 
+use std::path::PathBuf;
+
 /// A wish that the window fulfils.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
     /// The picture as it is shown, in a file.
     Screenshot,
@@ -9,4 +11,6 @@ pub enum Request {
     SaveState,
     /// The window over all of the screen, or back as it was.
     Fullscreen,
+    /// A file in place of what is there: another scene, or a state of this one.
+    Open(PathBuf),
 }

@@ -47,6 +47,11 @@ impl Screen {
         textures_delta
     }
 
+    /// All is to be shown anew, of another scene.
+    pub fn begin(&mut self) {
+        (self.change, self.stale) = (Change::Lights, true);
+    }
+
     /// What is shown is lost, or of the wrong size.
     pub fn lose(&mut self) {
         self.stale = true;

@@ -29,6 +29,8 @@ pub struct State {
     pub notice: Option<String>,
     /// Samples that the picture's shadows have so far, and how many there will be; none where it has no shadows.
     pub samples: Option<[u32; 2]>,
+    /// How far another scene is that is being loaded.
+    pub loading: Option<String>,
     /// What the program is at, where that takes long.
     pub doing: Option<&'static str>,
     /// How long the last drawn frame took.
@@ -82,6 +84,7 @@ impl State {
             material: shown.unwrap_or(0),
             notice: None,
             samples: None,
+            loading: None,
             doing: None,
             frame_time: None,
             metered: None,
@@ -103,6 +106,15 @@ impl State {
             shown: edits.clone(),
             edits,
         }
+    }
+
+    /// Comes in place of another state: what the window is like stays, and what has not been read yet.
+    pub fn take_over(&mut self, before: &mut Self) {
+        self.panel_hidden = before.panel_hidden;
+        self.hands.is_narrow = before.hands.is_narrow;
+        self.messages = std::mem::take(&mut before.messages);
+        // Nothing goes on below another scene.
+        (before.sheet, before.sweep, before.outlined, before.loading) = (None, None, None, None);
     }
 
     /// The scene as it is drawn.

@@ -1,6 +1,7 @@
 //! The window: its events, and when something is drawn. It never waits for the device: what draws is a [`Painter`] on a thread of its own,
 //! which has one order at a time.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,6 +14,7 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 use super::ViewerError;
 use super::change::Change;
+use super::files::{Files, is_state};
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
 use super::native;
@@ -32,10 +34,13 @@ const SLOW: Duration = Duration::from_millis(333);
 /// The program between its events.
 pub(super) struct App {
     name: String,
-    /// Until the scene is there.
+    files: Box<dyn Files>,
+    /// While a scene is on its way, the first one or another.
     loading: Option<Loading>,
-    /// From then on.
+    /// From the first scene on.
     state: Option<State>,
+    /// That of the scene before, until the painter has taken the one that is shown.
+    before: Option<State>,
     table: Option<SheenTable>,
     wake: EventLoopProxy<()>,
     /// There from the first `resumed` on.
@@ -45,9 +50,10 @@ pub(super) struct App {
 }
 
 impl App {
-    pub fn new(loading: Loading, table: SheenTable, wake: EventLoopProxy<()>) -> Self {
-        let name = loading.name.clone();
-        Self { name, loading: Some(loading), state: None, table: Some(table), wake, open: None, failure: None }
+    pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
+        let (name, table) = (loading.name.clone(), Some(table));
+        let (loading, state, before, open, failure) = (Some(loading), None, None, None, None);
+        Self { name, files, loading, state, before, table, wake, open, failure }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -70,12 +76,55 @@ impl App {
         format!("Velour - {}{doing}", file_name(&self.name))
     }
 
-    /// Takes the scene where it is there after so long at most.
+    /// Takes the scene where it is there after so long at most. Another one that cannot be loaded leaves what is there.
     fn receive_scene(&mut self, patience: Duration) -> Result<(), ViewerError> {
-        if let Some(loading) = self.loading.take_if(|loading| loading.is_done_within(patience)) {
-            self.state = Some(loading.state().map_err(ViewerError::Scene)?);
+        let Some(loading) = self.loading.take_if(|loading| loading.is_done_within(patience)) else { return Ok(()) };
+        match (loading.state(), &mut self.state) {
+            (Ok(state), _) => self.show(state),
+            (Err(why), Some(state)) => state.say(why),
+            (Err(why), None) => return Err(ViewerError::Scene(why)),
         }
         Ok(())
+    }
+
+    /// Shows a scene in place of the one that is shown, if there is one.
+    fn show(&mut self, mut state: State) {
+        self.name.clone_from(&state.name);
+        if let Some(before) = &mut self.state {
+            state.take_over(before);
+        }
+        // What the painter has not taken yet is nothing to go back to.
+        let replaced = self.state.replace(state);
+        self.before = self.before.take().or(replaced);
+        let title = self.title(None);
+        if let Some(open) = &mut self.open {
+            open.begin();
+            open.titled = None;
+            open.window.set_title(&title);
+        }
+    }
+
+    /// Goes back to the scene before where the painter cannot draw this one.
+    fn go_back(&mut self, why: String) -> Result<(), ViewerError> {
+        let Some(before) = self.before.take() else { return Err(ViewerError::Window(why)) };
+        let refused = self.name.clone();
+        self.show(before);
+        self.before = None;
+        if let Some(state) = &mut self.state {
+            state.say(format!("{refused}: {why}"));
+        }
+        Ok(())
+    }
+
+    /// Opens what the user has brought: a scene once it is loaded, a state at once.
+    fn bring(&mut self, path: &Path) {
+        match &mut self.state {
+            Some(state) if is_state(path) => match self.files.state(path, &state.scene) {
+                Ok(edits) => (state.edits, state.metered) = (edits, None),
+                Err(why) => state.say(why),
+            },
+            _ => self.loading = Some(self.files.scene(path)),
+        }
     }
 
     /// Lets egui see the events so far and keeps what they lead to; whether they have changed something.
@@ -86,7 +135,10 @@ impl App {
         let mut layout = Layout::default();
         let mut output = context.run_ui(input, |ui| {
             let last = match (&mut self.state, &self.loading) {
-                (Some(state), _) => layout::show(ui, state),
+                (Some(state), loading) => {
+                    state.loading = loading.as_ref().map(|loading| format!("{}: {}", loading.what(), loading.said()));
+                    layout::show(ui, state)
+                }
                 (None, Some(loading)) => {
                     loading::show(ui, loading);
                     Layout::default()
@@ -94,7 +146,7 @@ impl App {
                 (None, None) => Layout::default(),
             };
             // egui may want to do it all over with the sizes that it has found, and without the events.
-            let (change, request) = (layout.change.max(last.change), layout.request.or(last.request));
+            let (change, request) = (layout.change.max(last.change), layout.request.take().or(last.request));
             layout = Layout { change, request, ..last };
         });
         open.egui.handle_platform_output(&open.window, std::mem::take(&mut output.platform_output));
@@ -108,18 +160,22 @@ impl App {
         if self.loading.is_some() {
             open.wake_in(REST);
         }
-        if let (Some(request), Some(state)) = (layout.request, &mut self.state) {
-            match request {
-                Request::Screenshot => open.save_picture(native::comment(state)),
-                Request::SaveState => {
-                    let said = native::save_state(state);
-                    state.say(said);
-                }
-                Request::Fullscreen => toggle_fullscreen(&open.window),
-            }
-            open.wake_in(Duration::ZERO);
-        }
+        layout.request.into_iter().for_each(|request| self.fulfil(request));
         layout.change > Change::None
+    }
+
+    fn fulfil(&mut self, request: Request) {
+        match (request, &mut self.state, &mut self.open) {
+            (Request::Open(path), _, _) => self.bring(&path),
+            (Request::Screenshot, Some(state), Some(open)) => open.save_picture(native::comment(state)),
+            (Request::SaveState, Some(state), _) => {
+                let said = native::save_state(state);
+                state.say(said);
+            }
+            (Request::Fullscreen, _, Some(open)) => toggle_fullscreen(&open.window),
+            (_, _, _) => {}
+        }
+        self.open.iter_mut().for_each(|open| open.wake_in(Duration::ZERO));
     }
 
     /// What is due by now: the scene, what the painter has to tell, a pass, its next order.
@@ -135,6 +191,11 @@ impl App {
             (Some(open), None) => open.hear_nothing()?,
             (None, _) => false,
         };
+        match self.open.as_mut().and_then(Open::verdict) {
+            Some(Err(why)) => self.go_back(why)?,
+            Some(Ok(())) => self.before = None,
+            None => {}
+        }
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
         let is_due = is_loaded || told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
         if is_due && self.pass() {
@@ -151,9 +212,10 @@ impl App {
     /// Says in the title what takes long.
     fn tell(&mut self) {
         let is_slow = self.open.as_ref().and_then(Open::busy_for).is_some_and(|time| time >= SLOW);
-        let doing = || self.state.as_ref().and_then(|state| state.doing).unwrap_or("drawing");
-        let doing = is_slow.then(doing);
-        let title = self.title(doing);
+        let drawing = || self.state.as_ref().and_then(|state| state.doing).unwrap_or("drawing").to_owned();
+        let loading = || self.loading.as_ref().filter(|_| self.state.is_some()).map(Loading::what);
+        let doing = if is_slow { Some(drawing()) } else { loading() };
+        let title = self.title(doing.as_deref());
         if let Some(open) = self.open.as_mut().filter(|open| open.titled != doing) {
             open.titled = doing;
             open.window.set_title(&title);

@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
@@ -14,6 +15,7 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
+use super::dragging::Dragged;
 use super::shot::Shot;
 
 /// How long anything may take on a machine that has other things to do.
@@ -60,7 +62,7 @@ impl State {
 /// The display and the program; both end with it.
 pub struct Desk {
     server: Child,
-    connection: RustConnection,
+    connection: Rc<RustConnection>,
     root: Window,
     pub size: [u16; 2],
     program: Child,
@@ -129,7 +131,7 @@ impl Desk {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        Self { server, connection, root, size, program, folder, window: 0 }
+        Self { server, connection: Rc::new(connection), root, size, program, folder, window: 0 }
     }
 
     /// Asks until there is an answer.
@@ -326,6 +328,16 @@ impl Desk {
         let path = self.folder.path().join(name);
         self.until(name, |_| path.exists().then_some(()));
         path
+    }
+
+    /// Drags a file over the window.
+    pub fn drag_file(&self, path: &Path) -> Dragged {
+        Dragged::over(self.connection.clone(), [self.root, self.window], path)
+    }
+
+    /// Drops a file on the window.
+    pub fn drop_file(&self, path: &Path) {
+        self.drag_file(path).drop();
     }
 
     /// Closes the window, which ends the program as it should.

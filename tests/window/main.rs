@@ -4,10 +4,13 @@
 #![cfg(target_os = "linux")]
 
 mod desk;
+mod dragging;
 mod feel;
+mod files;
 mod hands;
 mod panel;
 mod places;
+mod plates;
 mod shot;
 mod small;
 

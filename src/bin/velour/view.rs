@@ -44,7 +44,8 @@ pub fn run(arguments: &View) -> Result<(), Failure> {
             return Err(Failure::device(format!("{error}: open a desktop, or use `velour render`")));
         }
     };
-    viewer::run(event_loop, loading, SheenTable::embedded()).map_err(failure)
+    let files = Box::new(Files(arguments.loading.options()));
+    viewer::run(event_loop, loading, files, SheenTable::embedded()).map_err(failure)
 }
 
 /// The viewer; without a display, or a device that draws on it, the picture that it would show.
@@ -54,7 +55,7 @@ pub fn run_or_render(path: Option<&Path>, options: &Options) -> Result<(), Failu
         Ok(event_loop) => event_loop,
         Err(no_display) => return render_instead(&no_display, path, &*loading.wait().map_err(Failure::input)?),
     };
-    match viewer::run(event_loop, loading, SheenTable::embedded()) {
+    match viewer::run(event_loop, loading, Box::new(Files(options.clone())), SheenTable::embedded()) {
         // The viewer has kept the scene.
         Err(why @ ViewerError::Device(_)) => {
             render_instead(&why, path, &load(path, options, &|_| ()).map_err(Failure::input)?)
@@ -70,12 +71,30 @@ fn failure(error: ViewerError) -> Failure {
     }
 }
 
+/// Files that are opened in the window are read with the flags that it was opened with.
+struct Files(Options);
+
+impl viewer::Files for Files {
+    fn scene(&self, path: &Path) -> viewer::Loading {
+        load_aside(Some(path.to_owned()), self.0.clone(), None)
+    }
+
+    fn state(&self, path: &Path, scene: &Scene) -> Result<Edits, String> {
+        read_state(path, scene).map_err(|failure| failure.message)
+    }
+}
+
+/// The edits in a state's file.
+fn read_state(path: &Path, scene: &Scene) -> Result<Edits, Failure> {
+    let edits = state::load(path, scene)?;
+    render::check_real_time(&edits).map(|()| edits)
+}
+
 /// Loads a scene, and the edits in a state's file, while the window opens.
 fn load_aside(path: Option<PathBuf>, options: Options, state: Option<PathBuf>) -> viewer::Loading {
     viewer::Loading::start(&name(path.as_deref()), move |stage| {
         let scene = load(path.as_deref(), &options, stage)?;
-        let edits = state.map_or_else(|| Ok(Edits::default()), |path| state::load(&path, &scene));
-        let edits = edits.and_then(|edits| render::check_real_time(&edits).map(|()| edits));
+        let edits = state.map_or_else(|| Ok(Edits::default()), |path| read_state(&path, &scene));
         let edits = edits.map_err(|failure| failure.message)?;
         scene.notices.iter().for_each(complain);
         Ok((scene, edits))

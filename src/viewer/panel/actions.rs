@@ -76,5 +76,9 @@ fn messages(ui: &mut Ui, messages: &mut Vec<String>) {
 fn status(state: &State) -> String {
     let time = state.frame_time.map(|time| format!("frame {:.1} ms", 1e3 * time.as_secs_f64()));
     let samples = state.samples.map(|[samples, of]| format!("{samples} of {of} samples"));
-    [state.doing.map(str::to_owned), time, samples].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    [state.loading.clone(), state.doing.map(str::to_owned), time, samples]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(", ")
 }

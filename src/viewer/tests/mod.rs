@@ -2,6 +2,7 @@
 
 mod comparing;
 mod controls;
+mod files;
 mod flight;
 mod hands;
 mod keyboard;
@@ -191,7 +192,7 @@ impl Window {
     /// The request of a key that is pressed and released.
     fn request(&mut self, key: Key) -> Option<Request> {
         self.pass(vec![self.key(key, true)]);
-        let request = self.layout.request;
+        let request = self.layout.request.clone();
         self.pass(vec![self.key(key, false)]);
         request
     }
