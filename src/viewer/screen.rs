@@ -42,7 +42,10 @@ impl Screen {
         let is_painted_anew = shapes != self.shapes || pixels_per_point != self.pixels_per_point;
         self.is_painted_anew |= is_painted_anew || !textures_delta.set.is_empty();
         self.stale |= layout.change > Change::None || layout.picture != self.picture || self.is_painted_anew;
-        self.change = self.change.max(layout.change);
+        // In another size the picture is another one.
+        let is_resized = layout.picture.size() != self.picture.size() || pixels_per_point != self.pixels_per_point;
+        let resized = if is_resized { Change::Drawn } else { Change::None };
+        self.change = self.change.max(layout.change).max(resized);
         (self.picture, self.shapes, self.pixels_per_point) = (layout.picture, shapes, pixels_per_point);
         textures_delta
     }
@@ -199,6 +202,24 @@ mod tests {
         });
         assert!(again.flatten().is_some_and(|shapes| shapes.len() > 10));
         assert!(desk.screen.presented().is_none());
+    }
+
+    #[test]
+    fn where_the_picture_has_more_room_it_is_drawn_anew() {
+        let mut desk = Desk::settled();
+        for _ in 0..2 {
+            desk.state.panel_hidden = !desk.state.panel_hidden;
+            desk.settle(vec![]);
+            assert_eq!(desk.screen.change, Change::Drawn);
+            desk.screen.presented();
+        }
+        // Not where it is but moved.
+        let layout = Layout { picture: desk.screen.picture.translate(egui::vec2(3.0, 2.0)), ..Layout::default() };
+        desk.screen.take(&layout, FullOutput { pixels_per_point: 1.0, ..FullOutput::default() }).clear();
+        assert!(desk.screen.is_stale() && desk.screen.change == Change::None);
+        // Scaled up it has more pixels.
+        desk.screen.take(&layout, FullOutput { pixels_per_point: 2.0, ..FullOutput::default() }).clear();
+        assert_eq!(desk.screen.change, Change::Drawn);
     }
 
     #[test]

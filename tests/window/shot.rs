@@ -27,6 +27,11 @@ impl Shot {
         self.pixels[y * self.width + x]
     }
 
+    /// A part of it.
+    pub fn cut(&self, area: Area) -> Self {
+        Self { width: area[1] - area[0], pixels: places(area).map(|place| self.at(place)).collect() }
+    }
+
     /// The share of pixels that differ from another picture's by more than `by` in some channel.
     pub fn differs(&self, other: &Self, area: Area, by: u8) -> f64 {
         let far = |one: [u8; 3], other: [u8; 3]| (0..3).any(|channel| one[channel].abs_diff(other[channel]) > by);
