@@ -16,7 +16,7 @@ use super::painter::Painter;
 use super::screen::Screen;
 use super::state::State;
 use super::{theme, window_size};
-use crate::renderer::{Gpu, device};
+use crate::renderer::{Gpu, RenderError, device};
 use crate::scene::Edits;
 use crate::table::SheenTable;
 
@@ -74,7 +74,7 @@ pub(super) struct Open {
     /// Whether the order that the painter has is about a scene that is shown no more.
     is_outdated: bool,
     /// What the painter makes of a scene that it has been given.
-    verdict: Option<Result<(), String>>,
+    verdict: Option<Result<(), RenderError>>,
 }
 
 impl Open {
@@ -132,7 +132,7 @@ impl Open {
     }
 
     /// What the painter has made of a scene that it was given, told once: whether it draws it, or why not.
-    pub fn verdict(&mut self) -> Option<Result<(), String>> {
+    pub fn verdict(&mut self) -> Option<Result<(), RenderError>> {
         self.verdict.take()
     }
 

@@ -10,6 +10,7 @@ use egui::epaint::textures::TexturesDelta;
 use super::change::Change;
 use super::sheet::Tile;
 use crate::picture::DisplayImage;
+use crate::renderer::RenderError;
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 
 /// One frame of the window, or something else to be drawn.
@@ -87,8 +88,8 @@ pub struct Report {
     pub unseen: Option<Unseen>,
     /// Nothing has been done, because it will take long for this reason: the order is to be given again, announced.
     pub about_to: Option<&'static str>,
-    /// Why the scene cannot be drawn, where another one could be before.
-    pub refused: Option<String>,
+    /// Why the scene cannot be drawn.
+    pub refused: Option<RenderError>,
     /// What is left to do although nothing changes.
     pub left: Left,
     /// Samples of the picture's shadows so far, and how many there will be; none where it has none.

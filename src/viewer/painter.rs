@@ -20,14 +20,12 @@ pub(super) struct Painter {
     context: egui::Context,
     table: SheenTable,
     picture: Option<Picture>,
-    /// Whether a scene has been drawn.
-    has_drawn: bool,
 }
 
 impl Painter {
     /// `context` is that of the passes whose shapes orders bring.
     pub fn new(gpu: Gpu, frame: Frame, context: egui::Context, table: SheenTable) -> Self {
-        Self { gpu, frame, context, table, picture: None, has_drawn: false }
+        Self { gpu, frame, context, table, picture: None }
     }
 
     /// Does what is asked for, and says what became of it.
@@ -81,15 +79,13 @@ impl Painter {
                 let format = self.frame.format(&self.gpu)?;
                 match Picture::new(&self.gpu, format, &self.table, shot) {
                     Ok(picture) => self.picture.insert(picture),
-                    Err(error) if self.has_drawn => {
-                        report.refused = Some(error.to_string());
+                    Err(error) => {
+                        report.refused = Some(error);
                         return Ok(());
                     }
-                    Err(error) => return Err(error.into()),
                 }
             }
         };
-        self.has_drawn = true;
         picture.receive(&self.gpu, shot, [in_pixels.width, in_pixels.height])?;
         report.about_to = picture.about_to(shot).filter(|_| !announced);
         if report.about_to.is_none() && (picture.advance(&self.gpu, shot, report)? || stale) {

@@ -22,6 +22,7 @@ use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
 use super::{file_name, window_size};
+use crate::renderer::RenderError;
 use crate::table::SheenTable;
 
 /// How long a scene may take to load before a window is opened that says so: one that is there by then, or that cannot be
@@ -33,7 +34,6 @@ const SLOW: Duration = Duration::from_millis(333);
 
 /// The program between its events.
 pub(super) struct App {
-    name: String,
     files: Box<dyn Files>,
     /// While a scene is on its way, the first one or another.
     loading: Option<Loading>,
@@ -51,9 +51,8 @@ pub(super) struct App {
 
 impl App {
     pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
-        let (name, table) = (loading.name.clone(), Some(table));
-        let (loading, state, before, open, failure) = (Some(loading), None, None, None, None);
-        Self { name, files, loading, state, before, table, wake, open, failure }
+        let (loading, table) = (Some(loading), Some(table));
+        Self { files, loading, state: None, before: None, table, wake, open: None, failure: None }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -73,7 +72,13 @@ impl App {
 
     fn title(&self, doing: Option<&str>) -> String {
         let doing = doing.map(|doing| format!(" - {doing}")).unwrap_or_default();
-        format!("Velour - {}{doing}", file_name(&self.name))
+        format!("Velour - {}{doing}", file_name(self.name()))
+    }
+
+    /// What the scene is called that is shown, or that will be.
+    fn name(&self) -> &str {
+        let shown = self.state.as_ref().map(|state| &state.name);
+        shown.or(self.loading.as_ref().map(|loading| &loading.name)).map_or("", String::as_str)
     }
 
     /// Takes the scene where it is there after so long at most. Another one that cannot be loaded leaves what is there.
@@ -89,7 +94,6 @@ impl App {
 
     /// Shows a scene in place of the one that is shown, if there is one.
     fn show(&mut self, mut state: State) {
-        self.name.clone_from(&state.name);
         if let Some(before) = &mut self.state {
             state.take_over(before);
         }
@@ -105,9 +109,9 @@ impl App {
     }
 
     /// Goes back to the scene before where the painter cannot draw this one.
-    fn go_back(&mut self, why: String) -> Result<(), ViewerError> {
-        let Some(before) = self.before.take() else { return Err(ViewerError::Window(why)) };
-        let refused = self.name.clone();
+    fn go_back(&mut self, why: RenderError) -> Result<(), ViewerError> {
+        let Some(before) = self.before.take() else { return Err(why.into()) };
+        let refused = self.name().to_owned();
         self.show(before);
         self.before = None;
         if let Some(state) = &mut self.state {
