@@ -126,6 +126,7 @@ impl Desk {
             .current_dir(&folder)
             .env("DISPLAY", &display)
             .env("XDG_RUNTIME_DIR", folder.path())
+            .env("XDG_STATE_HOME", folder.path())
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .stderr(Stdio::piped())
