@@ -5,12 +5,14 @@
 
 #[cfg(feature = "cli")]
 pub mod assets;
+pub mod black_body;
 mod bounds;
 mod camera;
 mod clusters;
 mod convex_parts;
 mod cutout;
 mod drawn;
+mod drawn_lights;
 mod edits;
 mod emission;
 mod emitter;
@@ -19,6 +21,7 @@ mod framing;
 pub mod gltf;
 mod islands;
 mod light;
+mod light_frame;
 mod lighting;
 mod lights;
 mod material;
@@ -46,9 +49,13 @@ pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
 pub use cutout::Cutout;
 pub use drawn::Drawn;
-pub use edits::{CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select};
+pub use edits::{
+    Added, AddedLight, AddedPunctual, CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, LightShape,
+    MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
+};
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
+pub use light_frame::LightFrame;
 pub use material::{AlphaMode, Material, TextureSlot};
 pub use mesh::{Instance, Mesh};
 pub use mipmap::{Encoding, Level};
