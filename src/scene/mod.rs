@@ -41,6 +41,7 @@ mod tangents;
 mod tests;
 mod texture;
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
@@ -85,6 +86,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Polygonal area lights.
     pub lights: Vec<Light>,
+    /// Those of them that are the default rig, which no file has.
+    pub rig: Range<usize>,
     /// Lights without extent.
     pub punctual_lights: Vec<PunctualLight>,
     /// The views. After loading there is at least one; the first is the default.

@@ -204,7 +204,10 @@ fn errors_name_line_and_key() {
         ("[[material]]\nname = 'felt'\nindex = 2", "line 1, material: give either its name or its index"),
         ("[[material]]\nindex = 1.5", "line 2, index of a material: give a whole number from 0 up"),
         ("[[light]]\nname = 3", "line 2, name of a light: give a name in quotes"),
-        ("[[light]]\nindex = 1\ncolour = [1, 1, 1]", "line 3, colour of light 1: the keys are radiance, strength and"),
+        (
+            "[[light]]\nindex = 1\ncolour = [1, 1, 1]",
+            "line 3, colour of light 1: the keys are radiance, strength, temperature",
+        ),
         ("[[light]]\nindex = 1\nradiance = [1, -1, 1]", "line 3, radiance of light 1: give three finite numbers"),
         ("[light]\nindex = 1", "line 1, light: give tables: [[light]]"),
         ("light = [1]", "line 1, light: give tables: [[light]]"),

@@ -7,8 +7,8 @@ use glam::{Mat4, Quat, Vec2, Vec3};
 use super::shapes::{grid, scene};
 use crate::scene::notices::Notices;
 use crate::scene::{
-    Added, AddedLight, Drawn, Edits, Light, LightEdits, LightShape, PunctualEdits, PunctualKind, PunctualShape, Scene,
-    black_body, lights,
+    Added, AddedLight, Camera, Drawn, Edits, Light, LightEdits, LightShape, Projection, PunctualEdits, PunctualKind,
+    PunctualShape, Scene, black_body, lights, rig,
 };
 
 const NONE: LightEdits = LightEdits {
@@ -265,4 +265,28 @@ fn what_is_taken_away_moves_up_what_was_added_later() {
     assert_eq!(edits.of_light(&scene, 3).strength, Some(2.0));
     edits.set_light(&scene, 0, NONE);
     assert!(edits.lights.is_empty());
+}
+
+/// The rig that a file without lights gets, and the one that is added to it: each corner and each radiance the same.
+#[test]
+fn the_rig_is_the_same_whether_loaded_or_added() {
+    let mut without = scene(grid(1, |_, _| true, |_, _| 0.0), Mat4::from_rotation_x(0.3));
+    let world_from_camera = Mat4::from_rotation_translation(Quat::from_rotation_x(-0.4), Vec3::new(0.5, 2.0, 4.0));
+    let projection = Projection::Perspective { yfov: 0.7, near: 0.1, far: 100.0 };
+    without.cameras = vec![Camera { name: String::new(), world_from_camera, projection }];
+    let mut with_rig = without.clone();
+    rig::add(&mut with_rig, &mut Notices::default());
+    assert_eq!((with_rig.rig.clone(), without.rig.len()), (0..3, 0));
+    let edits = with(without.studio_rig());
+    let drawn = Drawn::new(&without, &edits);
+    for (index, loaded) in with_rig.lights.iter().enumerate() {
+        check_emitter(&drawn, index);
+        let added = &drawn.lights[index];
+        assert!((added.radiance / loaded.radiance - 1.0).abs().max_element() < 1e-6);
+        for vertex in outline(loaded) {
+            let size = vertex.length();
+            assert!(outline(added).iter().any(|other| other.distance(*vertex) < 1e-5 * size), "{}", loaded.name);
+        }
+        assert!(added.polygons[0].normal.distance(loaded.polygons[0].normal) < 1e-5);
+    }
 }
