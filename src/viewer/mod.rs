@@ -2,15 +2,21 @@
 //!
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
+mod adding;
+mod aim;
 mod change;
 mod commands;
 mod files;
 mod frame;
 mod frame_time;
+mod gizmo;
+mod grab;
 mod hands;
 mod history;
 mod keys;
+mod lamps;
 mod layout;
+mod lens;
 mod loading;
 mod native;
 mod navigate;

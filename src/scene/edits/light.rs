@@ -64,6 +64,11 @@ pub struct PunctualEdits {
     pub removed: Option<bool>,
 }
 
+/// The most corners of all polygon lights of a scene together, those that are added among them.
+pub const MOST_CORNERS: usize = crate::scene::lights::CORNERS_MAX;
+/// The most lights without extent that are added.
+pub const MOST_PUNCTUAL: usize = 1024;
+
 /// A light that the file does not have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Added<Shape, Changes> {
@@ -179,7 +184,7 @@ impl PunctualEdits {
     }
 
     /// What they make of a light, but for whether it is lit.
-    pub(in crate::scene) fn applied(&self, light: &PunctualLight) -> PunctualLight {
+    pub fn applied(&self, light: &PunctualLight) -> PunctualLight {
         let kind = match light.kind {
             PunctualKind::Point { range } => PunctualKind::Point { range: self.range.unwrap_or(range) },
             PunctualKind::Spot { range, inner, outer } => {

@@ -20,7 +20,9 @@ use super::{Camera, Layering, Lobes, Orbit, RoughnessMap, Scene, Settings, Sheen
 use crate::picture::{Exposure, ToneCurve};
 
 pub use keys::Keyed;
-pub use light::{Added, AddedLight, AddedPunctual, LightEdits, LightShape, PunctualEdits, PunctualShape};
+pub use light::{
+    Added, AddedLight, AddedPunctual, LightEdits, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualEdits, PunctualShape,
+};
 pub use selection::{Kind, UnknownThing, select};
 pub use text::EditsError;
 pub use value::Value;
