@@ -40,8 +40,7 @@ pub fn show(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> b
     let pressed_at =
         ui.input(|input| input.pointer.press_origin()).filter(|_| is_pressed && state.hands.grab.is_none());
     if let Some((at, handle)) = pressed_at.and_then(|at| Some((at, nearest(&handles, at)?))) {
-        let grab = Grab::new(state, light, handle.tool, at, true);
-        state.hands.grab = grab.map(|grab| Grab { axis: handle.axis, ..grab });
+        state.hands.grab = Grab::new(state, light, handle.tool, at, true).map(|grab| grab.along(handle.axis));
     }
     paint(&ui.painter_at(picture), &lens, (state, light), &handles, hovered);
     was_held || state.hands.grab.is_some()

@@ -54,6 +54,11 @@ impl Grab {
         can.then(|| Self { light, tool, axis: None, from, typed: String::new(), is_drag, is_over: false, before })
     }
 
+    /// The same along an axis.
+    pub fn along(self, axis: Option<usize>) -> Self {
+        Self { axis, ..self }
+    }
+
     /// Puts the light back.
     pub fn cancel(&self, state: &mut State) {
         state.set_changes(self.light, self.before.1);
