@@ -10,6 +10,8 @@ use super::state::State;
 
 /// How near to a handle the pointer takes it, in points.
 const REACH: f32 = 9.0;
+/// The least side of a box, in points, of which the corners are handles.
+const LEAST: f32 = 30.0;
 /// The length of the arrows along the axes, in points.
 const AXIS: f32 = 52.0;
 /// The colours of the axes, as everywhere: x red, y green, z blue.
@@ -72,7 +74,7 @@ fn carry_on(ui: &Ui, grab: &mut Grab, lens: &Lens, state: &mut State) -> bool {
     let (at, pressed, released, is_down) = ui.input(|input| {
         let pointer = &input.pointer;
         (
-            pointer.latest_pos(),
+            pointer.latest_pos().unwrap_or(grab.from),
             [pointer.primary_pressed(), pointer.secondary_pressed()],
             pointer.any_released(),
             pointer.any_down(),
@@ -82,7 +84,7 @@ fn carry_on(ui: &Ui, grab: &mut Grab, lens: &Lens, state: &mut State) -> bool {
         grab.cancel(state);
         grab.is_over = true;
     }
-    if let Some(at) = at.filter(|_| !grab.is_over) {
+    if !grab.is_over {
         grab.follow(state, lens, at);
     }
     // A drag ends with its button, all else with the click that puts it down: once that is over, which is no click in the picture.
@@ -116,7 +118,8 @@ fn handles(lens: &Lens, state: &State, light: LightId) -> Vec<Handle> {
     if place.can_turn {
         add(place.position + ARROW * metres * place.normal(), Tool::Point, None);
     }
-    if let Some(size) = place.size {
+    // A box that is too small for its corners is scaled by S.
+    if let Some(size) = place.size.filter(|size| size.min_element() > LEAST * metres) {
         for [x, y] in [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]] {
             let corner = place.rotation * Vec3::new(x * size.x, y * size.y, 0.0);
             add(place.position + corner, Tool::Corner, None);
@@ -185,11 +188,12 @@ fn paint(
             }
         }
     }
-    said(painter, &text(state, light, handles));
+    let is_seen = handles.iter().any(|handle| painter.clip_rect().contains(handle.at));
+    said(painter, &text(state, light, is_seen));
 }
 
 /// What stands at the picture's foot.
-fn text(state: &State, light: LightId, handles: &[Handle]) -> String {
+fn text(state: &State, light: LightId, is_seen: bool) -> String {
     let name = match state.light_name(light) {
         "" => "light",
         name => name,
@@ -197,12 +201,10 @@ fn text(state: &State, light: LightId, handles: &[Handle]) -> String {
     let what = match &state.hands.grab {
         Some(grab) if grab.is_drag => grab.said(state),
         Some(grab) => format!("{}   X Y Z axis, a number, Enter or click done, Esc back", grab.said(state)),
-        None if handles.is_empty() => {
-            "behind the eye: G move, R turn, L+drag puts its reflection below the pointer".to_owned()
-        }
         None => "G move, R turn, S scale, L+drag puts its reflection below the pointer".to_owned(),
     };
-    format!("{}: {what}", super::widgets::short(name, 32))
+    let place = if is_seen { "" } else { ", out of sight" };
+    format!("{}{place}: {what}", super::widgets::short(name, 32))
 }
 
 fn said(painter: &Painter, text: &str) {

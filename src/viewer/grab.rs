@@ -27,7 +27,7 @@ pub struct Grab {
     /// Of the world; of the light itself where it is scaled.
     pub axis: Option<usize>,
     /// Where the pointer was at the start.
-    from: Pos2,
+    pub from: Pos2,
     /// What is typed.
     pub typed: String,
     /// Whether it ends when the button is released; else by a click.
@@ -77,6 +77,9 @@ impl Grab {
     /// Puts the light where the pointer has brought it.
     pub fn follow(&self, state: &mut State, lens: &Lens, pointer: Pos2) {
         state.set_changes(self.light, self.before.1);
+        if pointer == self.from && self.number().is_none() {
+            return;
+        }
         let place = &self.before.0;
         match self.tool {
             Tool::Move => state.move_light(self.light, place.position + self.moved(lens, pointer)),

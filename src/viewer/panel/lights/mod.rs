@@ -111,7 +111,7 @@ fn section(ui: &mut Ui, state: &mut State, (number, id): (usize, LightId), few: 
     let header = shown.header_response;
     let (was_clicked, place) = (header.clicked(), header.rect);
     if is_revealed {
-        header.scroll_to_me(None);
+        header.scroll_to_me(Some(egui::Align::TOP));
     }
     header.on_hover_text(about);
     if was_clicked {
