@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 
-use super::lamps::{Changes, LightId};
+use super::lamp::{Changes, LightId};
 use super::state::State;
 use crate::scene::{
     Added, AddedLight, AddedPunctual, LightEdits, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualEdits, PunctualShape,

@@ -3,7 +3,7 @@
 use egui::{Key, Pos2, Rect, Response, Ui};
 use glam::Quat;
 
-use super::lamps::LightId;
+use super::lamp::LightId;
 use super::lens::Lens;
 use super::pick::pick;
 use super::state::State;

@@ -4,7 +4,7 @@ use egui::{Align2, Color32, Event, FontId, Key, Painter, Pos2, Rect, Response, S
 use glam::Vec3;
 
 use super::grab::{ARROW, Grab, Tool};
-use super::lamps::LightId;
+use super::lamp::LightId;
 use super::lens::Lens;
 use super::state::State;
 
@@ -42,7 +42,7 @@ pub fn show(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> b
     let pressed_at =
         ui.input(|input| input.pointer.press_origin()).filter(|_| is_pressed && state.hands.grab.is_none());
     if let Some((at, handle)) = pressed_at.and_then(|at| Some((at, nearest(&handles, at)?))) {
-        state.hands.grab = Grab::new(state, light, handle.tool, at, true).map(|grab| grab.along(handle.axis));
+        state.hands.grab = state.take_up(light, handle.tool, at, true).map(|grab| grab.along(handle.axis));
     }
     paint(&ui.painter_at(picture), &lens, (state, light), &handles, hovered);
     was_held || state.hands.grab.is_some()
@@ -53,7 +53,7 @@ pub fn begin(ui: &Ui, picture: Rect, state: &mut State, tool: Tool) {
     let is_free = state.hands.grab.is_none() && !ui.input(|input| input.pointer.any_down());
     let Some(light) = state.chosen().filter(|_| is_free) else { return };
     let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(picture.center());
-    state.hands.grab = Grab::new(state, light, tool, at, false);
+    state.hands.grab = state.take_up(light, tool, at, false);
 }
 
 /// What pointer and keys make of what is in the hand; whether it stays there.
@@ -62,7 +62,7 @@ fn carry_on(ui: &Ui, grab: &mut Grab, lens: &Lens, state: &mut State) -> bool {
     for event in events {
         match event {
             Event::Key { key: Key::Escape, pressed: true, .. } => {
-                grab.cancel(state);
+                state.put_back(grab);
                 return false;
             }
             Event::Key { key: Key::Enter, pressed: true, .. } => return false,
@@ -81,11 +81,11 @@ fn carry_on(ui: &Ui, grab: &mut Grab, lens: &Lens, state: &mut State) -> bool {
         )
     });
     if pressed[1] && !grab.is_drag {
-        grab.cancel(state);
+        state.put_back(grab);
         grab.is_over = true;
     }
     if !grab.is_over {
-        grab.follow(state, lens, at);
+        state.carry(grab, lens, at);
     }
     // A drag ends with its button, all else with the click that puts it down: once that is over, which is no click in the picture.
     grab.is_over |= if grab.is_drag { released } else { pressed[0] };
@@ -199,8 +199,10 @@ fn text(state: &State, light: LightId, is_seen: bool) -> String {
         name => name,
     };
     let what = match &state.hands.grab {
-        Some(grab) if grab.is_drag => grab.said(state),
-        Some(grab) => format!("{}   X Y Z axis, a number, Enter or click done, Esc back", grab.said(state)),
+        Some(grab) if grab.is_drag => grab.said(&state.placing(light)),
+        Some(grab) => {
+            format!("{}   X Y Z axis, a number, Enter or click done, Esc back", grab.said(&state.placing(light)))
+        }
         None => "G move, R turn, S scale, L+drag puts its reflection below the pointer".to_owned(),
     };
     let place = if is_seen { "" } else { ", out of sight" };

@@ -3,9 +3,8 @@
 use egui::Pos2;
 use glam::{Quat, Vec2, Vec3};
 
-use super::lamps::{Changes, LightId, Placing};
+use super::lamp::{Changes, LightId, Placing};
 use super::lens::Lens;
-use super::state::State;
 
 /// What is done with a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,33 +34,21 @@ pub struct Grab {
     /// Whether it has been put down, by a button that is still held.
     pub is_over: bool,
     /// How the light stood, and what was changed in it.
-    before: (Placing, Changes),
+    pub before: (Placing, Changes),
 }
 
 /// What a light is turned by where its middle is out of sight: a height of the view is half a turn.
 const TURN: f32 = std::f32::consts::PI;
 
 impl Grab {
-    /// Takes a light in the hand; none where it cannot be done with it.
-    pub fn new(state: &State, light: LightId, tool: Tool, from: Pos2, is_drag: bool) -> Option<Self> {
-        let placing = state.placing(light);
-        let can = match tool {
-            Tool::Move => placing.can_move,
-            Tool::Turn | Tool::Point => placing.can_turn,
-            Tool::Scale | Tool::Corner => placing.size.is_some(),
-        };
-        let before = (placing, state.changes(light));
-        can.then(|| Self { light, tool, axis: None, from, typed: String::new(), is_drag, is_over: false, before })
+    /// Of a light that stands so, and in which this is changed.
+    pub fn new(light: LightId, tool: Tool, from: Pos2, is_drag: bool, before: (Placing, Changes)) -> Self {
+        Self { light, tool, axis: None, from, typed: String::new(), is_drag, is_over: false, before }
     }
 
     /// The same along an axis.
     pub fn along(self, axis: Option<usize>) -> Self {
         Self { axis, ..self }
-    }
-
-    /// Puts the light back.
-    pub fn cancel(&self, state: &mut State) {
-        state.set_changes(self.light, self.before.1);
     }
 
     /// Along the axis only, or freely again.
@@ -70,44 +57,12 @@ impl Grab {
     }
 
     /// What is typed as a number.
-    fn number(&self) -> Option<f32> {
+    pub fn number(&self) -> Option<f32> {
         self.typed.parse().ok().filter(|number: &f32| number.is_finite())
     }
 
-    /// Puts the light where the pointer has brought it.
-    pub fn follow(&self, state: &mut State, lens: &Lens, pointer: Pos2) {
-        state.set_changes(self.light, self.before.1);
-        if pointer == self.from && self.number().is_none() {
-            return;
-        }
-        let place = &self.before.0;
-        match self.tool {
-            Tool::Move => state.move_light(self.light, place.position + self.moved(lens, pointer)),
-            Tool::Turn => state.turn_light(self.light, self.turned(lens, pointer)),
-            Tool::Scale => {
-                let factor = self.scaled(lens, pointer);
-                // An axis is one of its own two.
-                let factors = match self.axis {
-                    Some(0) => Vec2::new(factor, 1.0),
-                    Some(1) => Vec2::new(1.0, factor),
-                    _ => Vec2::splat(factor),
-                };
-                state.resize_light(self.light, place.size.unwrap_or(Vec2::ONE) * factors);
-            }
-            Tool::Point => {
-                let to = pointed(lens, place, pointer);
-                state.turn_light(self.light, Quat::from_rotation_arc(place.normal(), to));
-            }
-            Tool::Corner => {
-                if let Some(size) = self.stretched(lens, pointer) {
-                    state.resize_light(self.light, size);
-                }
-            }
-        }
-    }
-
     /// By how much it is moved, metres: with the pointer in the view's plane, or along an axis.
-    fn moved(&self, lens: &Lens, pointer: Pos2) -> Vec3 {
+    pub fn moved(&self, lens: &Lens, pointer: Pos2) -> Vec3 {
         let position = self.before.0.position;
         if let Some(number) = self.number() {
             return number * Vec3::AXES[self.axis.unwrap_or(0)];
@@ -125,7 +80,7 @@ impl Grab {
     }
 
     /// By what it is turned: about the view's direction, or an axis.
-    fn turned(&self, lens: &Lens, pointer: Pos2) -> Quat {
+    pub fn turned(&self, lens: &Lens, pointer: Pos2) -> Quat {
         let position = self.before.0.position;
         let to_eye = lens.to_eye(position);
         let axis = self.axis.map_or(to_eye, |axis| Vec3::AXES[axis]);
@@ -145,7 +100,7 @@ impl Grab {
     }
 
     /// The factor by which it is made larger: that of the pointer's distances to its middle.
-    fn scaled(&self, lens: &Lens, pointer: Pos2) -> f32 {
+    pub fn scaled(&self, lens: &Lens, pointer: Pos2) -> f32 {
         if let Some(number) = self.number() {
             return number.abs();
         }
@@ -157,7 +112,7 @@ impl Grab {
 
     /// The size at which the corner that was taken is below the pointer: the light's middle stays. None where the light is seen
     /// edge-on.
-    fn stretched(&self, lens: &Lens, pointer: Pos2) -> Option<Vec2> {
+    pub fn stretched(&self, lens: &Lens, pointer: Pos2) -> Option<Vec2> {
         let place = &self.before.0;
         let own = |at: Pos2| -> Option<Vec2> {
             let point = lens.ray(at).on_plane(place.position, place.normal())?;
@@ -169,8 +124,7 @@ impl Grab {
     }
 
     /// What it does, for the user.
-    pub fn said(&self, state: &State) -> String {
-        let now = state.placing(self.light);
+    pub fn said(&self, now: &Placing) -> String {
         let before = &self.before.0;
         let what = match self.tool {
             Tool::Move => {
@@ -195,7 +149,7 @@ impl Grab {
 pub const ARROW: f32 = 70.0;
 
 /// The direction from a light to where the pointer is on a sphere about it: the near side's, or its rim.
-fn pointed(lens: &Lens, place: &Placing, pointer: Pos2) -> Vec3 {
+pub fn pointed(lens: &Lens, place: &Placing, pointer: Pos2) -> Vec3 {
     let radius = ARROW * lens.metres_a_point(place.position);
     let (middle, to_eye) = (place.position, lens.to_eye(place.position));
     let Some(point) = lens.ray(pointer).on_plane(middle, to_eye) else { return place.normal() };

@@ -6,7 +6,7 @@ use egui::{Key, Pos2};
 use glam::Vec3;
 
 use super::grab::Grab;
-use super::lamps::LightId;
+use super::lamp::LightId;
 use crate::scene::Orbit;
 
 /// What the pointer and the keys are about in the picture.

@@ -1,47 +1,13 @@
-//! Lights of all kinds as the hands and the panel have them: by one name, in one place.
+//! What hands and panel do with lights of all kinds.
 
+use egui::Pos2;
 use glam::{Quat, Vec2, Vec3};
 
+use super::grab::{Grab, Tool, pointed};
+use super::lamp::{Changes, LightId, Placing};
+use super::lens::Lens;
 use super::state::State;
 use crate::scene::{LightEdits, PunctualEdits, PunctualKind};
-
-/// A light of the scene, or one that is added.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LightId {
-    /// Index into `Drawn::lights`.
-    Area(usize),
-    /// Index into `Drawn::punctual_lights`.
-    Punctual(usize),
-}
-
-/// What is changed in a light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Changes {
-    Area(LightEdits),
-    Punctual(PunctualEdits),
-}
-
-/// Where a light stands, and what can be done about it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placing {
-    /// Metres; of a light from infinitely far away: where its direction is shown.
-    pub position: Vec3,
-    /// Turns the light's own axes into the world's; it shines along z.
-    pub rotation: Quat,
-    /// Along its own x and y, metres; none without extent.
-    pub size: Option<Vec2>,
-    /// Whether both are changed each for itself.
-    pub is_flat: bool,
-    pub can_move: bool,
-    pub can_turn: bool,
-}
-
-impl Placing {
-    /// The direction in which it shines, unit.
-    pub fn normal(&self) -> Vec3 {
-        self.rotation * Vec3::Z
-    }
-}
 
 impl State {
     /// All lights that have not been taken away: those with an area first.
@@ -186,5 +152,53 @@ impl State {
             LightId::Punctual(index) => self.edits.remove_punctual(&self.scene, index),
         }
         self.chosen_light = None;
+    }
+
+    /// Takes a light in the hand; none where it cannot be done with it.
+    pub fn take_up(&self, light: LightId, tool: Tool, from: Pos2, is_drag: bool) -> Option<Grab> {
+        let placing = self.placing(light);
+        let can = match tool {
+            Tool::Move => placing.can_move,
+            Tool::Turn | Tool::Point => placing.can_turn,
+            Tool::Scale | Tool::Corner => placing.size.is_some(),
+        };
+        can.then(|| Grab::new(light, tool, from, is_drag, (placing, self.changes(light))))
+    }
+
+    /// Puts a light that is in the hand where the pointer has brought it.
+    pub fn carry(&mut self, grab: &Grab, lens: &Lens, pointer: Pos2) {
+        self.put_back(grab);
+        if pointer == grab.from && grab.number().is_none() {
+            return;
+        }
+        let (light, place) = (grab.light, &grab.before.0);
+        match grab.tool {
+            Tool::Move => self.move_light(light, place.position + grab.moved(lens, pointer)),
+            Tool::Turn => self.turn_light(light, grab.turned(lens, pointer)),
+            Tool::Point => {
+                let to = pointed(lens, place, pointer);
+                self.turn_light(light, Quat::from_rotation_arc(place.normal(), to));
+            }
+            Tool::Scale => {
+                let factor = grab.scaled(lens, pointer);
+                // An axis is one of its own two.
+                let factors = match grab.axis {
+                    Some(0) => Vec2::new(factor, 1.0),
+                    Some(1) => Vec2::new(1.0, factor),
+                    _ => Vec2::splat(factor),
+                };
+                self.resize_light(light, place.size.unwrap_or(Vec2::ONE) * factors);
+            }
+            Tool::Corner => {
+                if let Some(size) = grab.stretched(lens, pointer) {
+                    self.resize_light(light, size);
+                }
+            }
+        }
+    }
+
+    /// Puts a light that is in the hand back where it was.
+    pub fn put_back(&mut self, grab: &Grab) {
+        self.set_changes(grab.light, grab.before.1);
     }
 }

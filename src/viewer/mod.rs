@@ -14,6 +14,7 @@ mod grab;
 mod hands;
 mod history;
 mod keys;
+mod lamp;
 mod lamps;
 mod layout;
 mod lens;

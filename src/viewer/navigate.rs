@@ -6,7 +6,7 @@ use egui::{PointerButton, Pos2, Rect, Response, Sense, Ui};
 use glam::{Vec2, Vec3};
 
 use super::commands::{Command, edit_view};
-use super::lamps::LightId;
+use super::lamp::LightId;
 use super::pick::{Picked, Ray, bounds, pick};
 use super::state::State;
 use super::{aim, gizmo, keys};

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::change::Change;
 use super::hands::Hands;
 use super::history::{self, History, Step};
-use super::lamps::LightId;
+use super::lamp::LightId;
 use super::order::Shot;
 use super::pick;
 use super::sheet::Sheet;

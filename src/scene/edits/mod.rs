@@ -7,10 +7,12 @@ mod keys;
 mod light;
 mod light_keys;
 mod lighting;
+mod reading;
 mod selection;
 mod text;
 mod text_added;
 mod value;
+mod writing;
 
 use std::collections::BTreeMap;
 
@@ -23,8 +25,8 @@ pub use keys::Keyed;
 pub use light::{
     Added, AddedLight, AddedPunctual, LightEdits, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualEdits, PunctualShape,
 };
+pub use reading::EditsError;
 pub use selection::{Kind, UnknownThing, select};
-pub use text::EditsError;
 pub use value::Value;
 
 /// Everything that a user may change in a scene; what is `None`, or not there, stays as it was loaded.

@@ -5,21 +5,12 @@ use std::fmt::Write as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::reading::{EditsError, Reader};
 use super::selection::{indexed, named};
 use super::text_added::{ADDED, write_added};
+use super::writing::{reference_to, write_keys};
 use super::{CameraEdit, Edits, Keyed, Kind, MaterialEdits, Value, select};
-use crate::scene::error::one_line;
 use crate::scene::{Orbit, Projection, Scene};
-
-/// Why a text holds no edits of a scene: `line 7, alpha of material "velvet": give a number in [0,1]`. Always one line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}{place}: {what}")]
-pub struct EditsError {
-    /// Counted from 1.
-    pub line: usize,
-    place: String,
-    what: String,
-}
 
 impl Edits {
     /// A text that [`Edits::from_text`] takes back to the same edits of the same scene.
@@ -61,13 +52,6 @@ impl Edits {
     }
 }
 
-pub(super) fn write_keys(text: &mut String, entries: Vec<(&str, Value)>) {
-    for (key, value) in entries {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "{key} = {}", written(&value));
-    }
-}
-
 fn write_thing(text: &mut String, kind: Kind, (key, value): (&'static str, Value), edits: &impl Keyed) {
     let entries = edits.entries();
     if !entries.is_empty() {
@@ -77,42 +61,7 @@ fn write_thing(text: &mut String, kind: Kind, (key, value): (&'static str, Value
     }
 }
 
-/// The key and the value by which a file names a thing: its name where no other has it, else its index.
-pub(super) fn reference_to(scene: &Scene, kind: Kind, index: usize) -> (&'static str, Value) {
-    let name = kind.names(scene)[index];
-    match named(scene, kind, name) {
-        Ok(all) if all.len() == 1 && !name.is_empty() => ("name", name.into()),
-        _ => ("index", Value::Number(index as f32)),
-    }
-}
-
-/// A value in TOML.
-fn written(value: &Value) -> String {
-    // The shortest decimals that are read back as the same number; whole ones without a point.
-    let number = |number: &f32| match number.fract() == 0.0 && number.abs() < 1e6 {
-        true => format!("{number}"),
-        false => format!("{number:?}"),
-    };
-    match value {
-        Value::Number(one) => number(one),
-        Value::Numbers(several) => format!("[{}]", several.iter().map(number).collect::<Vec<_>>().join(", ")),
-        Value::Text(text) => toml::Value::String(text.clone()).to_string(),
-        Value::Switch(switch) => switch.to_string(),
-    }
-}
-
-/// What is read, and the scene that it is for.
-pub(super) struct Reader<'a> {
-    text: &'a str,
-    pub(super) scene: &'a Scene,
-}
-
 impl Reader<'_> {
-    pub(super) fn error(&self, at: usize, place: String, what: impl ToString) -> EditsError {
-        let line = 1 + self.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
-        EditsError { line, place: one_line(&place), what: one_line(&what.to_string()) }
-    }
-
     /// The edits in the whole text.
     fn edits(&self, root: &DeTable) -> Result<Edits, EditsError> {
         let mut edits = Edits::default();
@@ -219,32 +168,6 @@ impl Reader<'_> {
             _ => Err(of_key("give a whole number from 0 up".to_owned())),
         }
     }
-
-    pub(super) fn set(
-        &self,
-        group: &mut impl Keyed,
-        key: &Spanned<std::borrow::Cow<str>>,
-        value: &Spanned<DeValue>,
-        of: &str,
-    ) -> Result<(), EditsError> {
-        let place = format!(", {}{of}", key.get_ref());
-        let read = self.value(value, &place)?;
-        group.set(key.get_ref(), &read).map_err(|what| self.error(key.span().start, place, what))
-    }
-
-    /// A value of the text, whatever it is for.
-    pub(super) fn value(&self, value: &Spanned<DeValue>, place: &str) -> Result<Value, EditsError> {
-        let found = match value.get_ref() {
-            DeValue::String(text) => Some(Value::Text(text.to_string())),
-            DeValue::Boolean(switch) => Some(Value::Switch(*switch)),
-            DeValue::Array(several) => {
-                several.iter().map(|one| number(one.get_ref())).collect::<Option<_>>().map(Value::Numbers)
-            }
-            one => number(one).map(Value::Number),
-        };
-        let wrong = || self.error(value.span().start, place.to_owned(), "give a number, a list of numbers, or a text");
-        found.ok_or_else(wrong)
-    }
 }
 
 /// The keys that say which thing a table is about.
@@ -252,19 +175,6 @@ const SELECTORS: [&str; 2] = ["name", "index"];
 
 /// Most characters of a name in a message.
 const NAME_SHOWN: usize = 60;
-
-/// The number nearest to what is written. `None` where it is none.
-fn number(value: &DeValue) -> Option<f32> {
-    let written = match value {
-        DeValue::Float(float) => float.as_str(),
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str(),
-        DeValue::Integer(integer) => {
-            return i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|number| number as f32);
-        }
-        _ => return None,
-    };
-    written.replace('_', "").parse().ok()
-}
 
 #[cfg(test)]
 #[path = "text_tests.rs"]

@@ -3,8 +3,9 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::reading::{EditsError, Reader};
 use super::selection::{indexed, named};
-use super::text::{EditsError, Reader, reference_to, write_keys};
+use super::writing::{reference_to, write_keys};
 use super::{Added, Edits, Keyed, Kind, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualShape, Value};
 use crate::scene::Scene;
 

@@ -3,7 +3,7 @@
 use super::super::commands::Command;
 use super::super::grab::Tool;
 use super::super::keys::{Input, ROWS};
-use super::super::lamps::LightId;
+use super::super::lamp::LightId;
 use super::super::panel;
 use super::*;
 

@@ -1,6 +1,6 @@
 //! Lights in the panel and in the hand.
 
-use super::super::lamps::LightId;
+use super::super::lamp::LightId;
 use super::super::lens::Lens;
 use super::*;
 use crate::scene::{LightEdits, LightShape, PunctualKind, PunctualLight, PunctualShape, black_body};

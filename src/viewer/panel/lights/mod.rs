@@ -6,7 +6,7 @@ mod shine;
 
 use egui::{Button, CollapsingHeader, Pos2, Rangef, Rect, TextEdit, Ui, pos2, vec2};
 
-use super::super::lamps::{Changes, LightId};
+use super::super::lamp::{Changes, LightId};
 use super::super::state::State;
 use super::super::widgets::{Touch, button, choice, control, row, short, switch};
 use shine::{Shine, shine_rows};
