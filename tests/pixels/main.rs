@@ -41,3 +41,4 @@ mod textured_lights;
 mod textures;
 mod truth;
 mod unlit;
+mod watched;
