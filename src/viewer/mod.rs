@@ -23,6 +23,7 @@ mod pick;
 mod picture;
 mod request;
 mod resting;
+mod saving;
 mod screen;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod server;
@@ -36,12 +37,14 @@ mod theme;
 mod widgets;
 mod window;
 mod window_size;
+mod wishes;
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
 pub use files::Files;
 pub use loading::Loading;
+pub use wishes::Pictured;
 
 use crate::renderer::{DeviceError, RenderError};
 use crate::table::SheenTable;

@@ -9,7 +9,7 @@ use winit::window::Window;
 
 use super::ViewerError;
 use super::change::Change;
-use super::frame::Frame;
+use super::frame::{Frame, pixel_size};
 use super::native::{self, Gone, Instant, Worker};
 use super::order::{Left, Order, Report, Textures, Unseen, Work};
 use super::painter::Painter;
@@ -38,6 +38,7 @@ const BUILDING: Duration = Duration::from_millis(50);
 /// A window with what belongs to it.
 pub(super) struct Open {
     pub window: Arc<Window>,
+    pub gpu: Gpu,
     pub egui: egui_winit::State,
     pub screen: Screen,
     /// Changes of egui's textures that the painter has not been told.
@@ -61,8 +62,6 @@ pub(super) struct Open {
     /// When the frame time was told last.
     timed: Instant,
     is_hidden: bool,
-    /// The comment of a picture that is to be kept.
-    comment: Option<String>,
     /// What has changed in the picture that the painter has not been told.
     untold: Change,
     /// Textures of the sheet's pictures that the painter has made.
@@ -78,7 +77,7 @@ pub(super) struct Open {
 }
 
 impl Open {
-    pub fn new(window: Arc<Window>, table: SheenTable, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
+    pub fn new(window: Arc<Window>, table: Arc<SheenTable>, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
         let (surface, gpu) = native::block_on(open_surface(&window))?;
         let context = egui::Context::default();
         theme::apply(&context);
@@ -91,12 +90,13 @@ impl Open {
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
         let frame = Frame::new(surface, &gpu, window.inner_size().into())?;
-        let mut painter = Painter::new(gpu, frame, context, table);
+        let mut painter = Painter::new(gpu.clone(), frame, context, table);
         // Where the loop has ended nobody is left to be woken.
         let painter = Worker::start(move |order| painter.obey(order), move || _ = wake.send_event(()));
         let now = native::now();
         let open = Self {
             window,
+            gpu,
             egui,
             screen: Screen::new(),
             textures: Textures::default(),
@@ -111,7 +111,6 @@ impl Open {
             heard: now,
             timed: now,
             is_hidden: false,
-            comment: None,
             untold: Change::None,
             tiles: Vec::new(),
             asked: None,
@@ -165,6 +164,11 @@ impl Open {
         self.wake(self.passed + pace);
     }
 
+    /// Width and height in pixels of the picture as it is shown.
+    pub fn shown_size(&self) -> [u32; 2] {
+        pixel_size(self.screen.picture, self.screen.pixels_per_point)
+    }
+
     pub fn is_due(&self) -> bool {
         self.due.is_some_and(|due| due <= native::now())
     }
@@ -172,11 +176,6 @@ impl Open {
     /// How long the painter has been at its order.
     pub fn busy_for(&self) -> Option<Duration> {
         self.busy.map(|since| since.elapsed())
-    }
-
-    /// Has the picture kept, with this comment, once the painter is free.
-    pub fn save_picture(&mut self, comment: String) {
-        self.comment = Some(comment);
     }
 
     /// When something is to be looked at again: `slow` after an order was given, it is told of.
@@ -204,11 +203,6 @@ impl Open {
     /// Takes in what the painter has told, if it has; whether there is something new to show of it.
     pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
         let Some(report) = self.report()? else { return Ok(false) };
-        if let Some(saved) = report.saved {
-            let comment = self.comment.take().unwrap_or_default();
-            state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
-            return Ok(true);
-        }
         if std::mem::take(&mut self.is_outdated) {
             self.tiles.extend(report.tile.map(|(_, tile)| tile.texture));
             return Ok(true);
@@ -314,7 +308,6 @@ impl Open {
         let rests = self.rests_at().is_some_and(|at| at <= native::now());
         let sheet = state.and_then(|state| state.sheet.as_ref());
         match sheet {
-            _ if state.is_some() && self.comment.is_some() => Some(Work::Save),
             // Over the picture, which waits.
             Some(_) if self.screen.is_stale() => Some(Work::Present),
             Some(sheet) => sheet.missing().map(|index| Work::Tile(index, sheet.size)),

@@ -10,6 +10,7 @@ use super::hands::Hands;
 use super::history::{self, History, Step};
 use super::order::Shot;
 use super::pick;
+use super::saving::Saving;
 use super::sheet::Sheet;
 use super::sweep::Sweep;
 use crate::picture::Exposure;
@@ -44,6 +45,8 @@ pub struct State {
     pub messages: Vec<String>,
     /// Alpha on its way to and fro: while there is one, all that it sets is one change.
     pub sweep: Option<Sweep>,
+    /// Pictures that are saved.
+    pub saving: Saving,
     /// The sheet of nine alphas, while it lies over the picture.
     pub sheet: Option<Sheet>,
     /// Whether the picture has the window to itself.
@@ -91,6 +94,7 @@ impl State {
             notices: scene.notices.clone(),
             messages: Vec::new(),
             sweep: None,
+            saving: Saving::default(),
             sheet: None,
             panel_hidden: false,
             keys_shown: false,
@@ -113,6 +117,7 @@ impl State {
         self.panel_hidden = before.panel_hidden;
         self.hands.is_narrow = before.hands.is_narrow;
         self.messages = std::mem::take(&mut before.messages);
+        self.saving = std::mem::take(&mut before.saving);
         // Nothing goes on below another scene.
         (before.sheet, before.sweep, before.outlined, before.loading) = (None, None, None, None);
     }

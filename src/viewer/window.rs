@@ -17,17 +17,20 @@ use super::change::Change;
 use super::files::{Files, is_state};
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
-use super::native;
+use super::native::{self, Keeper, Means};
 use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
-use super::{file_name, window_size};
+use super::{file_name, window_size, wishes};
 use crate::renderer::RenderError;
 use crate::table::SheenTable;
 
 /// How long a scene may take to load before a window is opened that says so: one that is there by then, or that cannot be
 /// loaded, is not announced.
 const UNSAID: Duration = Duration::from_millis(300);
+
+/// How often it is shown how far a picture is that is being saved.
+const STEP: Duration = Duration::from_millis(250);
 
 /// An order that takes longer is told of in the window's title.
 const SLOW: Duration = Duration::from_millis(333);
@@ -41,7 +44,9 @@ pub(super) struct App {
     state: Option<State>,
     /// That of the scene before, until the painter has taken the one that is shown.
     before: Option<State>,
-    table: Option<SheenTable>,
+    table: Arc<SheenTable>,
+    /// Saves pictures.
+    keeper: Keeper,
     wake: EventLoopProxy<()>,
     /// There from the first `resumed` on.
     open: Option<Open>,
@@ -51,8 +56,8 @@ pub(super) struct App {
 
 impl App {
     pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
-        let (loading, table) = (Some(loading), Some(table));
-        Self { files, loading, state: None, before: None, table, wake, open: None, failure: None }
+        let (loading, table, keeper) = (Some(loading), Arc::new(table), Keeper::default());
+        Self { files, loading, state: None, before: None, table, keeper, wake, open: None, failure: None }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -66,8 +71,7 @@ impl App {
         let attributes =
             Window::default_attributes().with_title(self.title(None)).with_inner_size(size).with_min_inner_size(least);
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
-        let table = self.table.take().unwrap_or_else(SheenTable::embedded);
-        Open::new(Arc::new(window), table, self.wake.clone())
+        Open::new(Arc::new(window), self.table.clone(), self.wake.clone())
     }
 
     fn title(&self, doing: Option<&str>) -> String {
@@ -94,8 +98,9 @@ impl App {
 
     /// Shows a scene in place of the one that is shown, if there is one.
     fn show(&mut self, mut state: State) {
-        if let Some(before) = &mut self.state {
-            state.take_over(before);
+        match &mut self.state {
+            Some(before) => state.take_over(before),
+            None => state.saving.last = wishes::remembered(),
         }
         // What the painter has not taken yet is nothing to go back to.
         let replaced = self.state.replace(state);
@@ -136,10 +141,12 @@ impl App {
         let Some(open) = &mut self.open else { return false };
         let input = open.egui.take_egui_input(&open.window);
         let context = open.egui.egui_ctx().clone();
+        let (progress, longest) = (self.keeper.progress(), open.gpu.device.limits().max_texture_dimension_2d);
         let mut layout = Layout::default();
         let mut output = context.run_ui(input, |ui| {
             let last = match (&mut self.state, &self.loading) {
                 (Some(state), loading) => {
+                    (state.saving.progress, state.saving.longest) = (progress.clone(), Some(longest));
                     state.loading = loading.as_ref().map(|loading| format!("{}: {}", loading.what(), loading.said()));
                     layout::show(ui, state)
                 }
@@ -164,6 +171,9 @@ impl App {
         if self.loading.is_some() {
             open.wake_in(REST);
         }
+        if progress.is_some() {
+            open.wake_in(STEP);
+        }
         layout.request.into_iter().for_each(|request| self.fulfil(request));
         layout.change > Change::None
     }
@@ -171,7 +181,15 @@ impl App {
     fn fulfil(&mut self, request: Request) {
         match (request, &mut self.state, &mut self.open) {
             (Request::Open(path), _, _) => self.bring(&path),
-            (Request::Screenshot, Some(state), Some(open)) => open.save_picture(native::comment(state)),
+            (Request::SavePicture(wish), Some(state), Some(open)) => {
+                let means = Means { gpu: open.gpu.clone(), table: self.table.clone() };
+                wishes::save(&mut self.keeper, means, open, state, wish);
+            }
+            (Request::StopSaving, _, _) => self.keeper.stop(),
+            (Request::CopyCommand, Some(state), Some(open)) => {
+                let said = wishes::copy(&*self.files, open, state);
+                state.say(said);
+            }
             (Request::SaveState, Some(state), _) => {
                 let said = native::save_state(state);
                 state.say(said);
@@ -201,6 +219,7 @@ impl App {
             None => {}
         }
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
+        let told = self.hear_keeper() || told;
         let is_due = is_loaded || told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
         if is_due && self.pass() {
             // What stands above the control that was touched has been laid out with the value before.
@@ -211,6 +230,14 @@ impl App {
         }
         self.tell();
         Ok(())
+    }
+
+    /// Says what became of a picture that was to be saved; whether there is something to say.
+    fn hear_keeper(&mut self) -> bool {
+        let heard = self.keeper.heard();
+        let is_heard = heard.is_some();
+        self.state.iter_mut().zip(heard).for_each(|(state, said)| state.say(said));
+        is_heard
     }
 
     /// Says in the title what takes long.

@@ -6,7 +6,7 @@ use velour::scene::assets::DRAPE;
 use velour::scene::{Drawn, Edits, Settings};
 use velour::table::SheenTable;
 
-use super::stage::GPU;
+use super::compare::GPU;
 
 /// Wider than a tile.
 const SIZE: [u32; 2] = [2100, 37];
@@ -20,11 +20,12 @@ fn renderer(edits: &Edits, is_shown: bool) -> (Offscreen, velour::scene::Camera,
     (renderer, edits.camera(&scene), drawn.settings)
 }
 
-/// Steps of between 1 and 17 rows, and what was told before each.
-fn steps(told: &mut Vec<Progress>) -> impl FnMut(Progress) -> Option<u32> {
-    move |progress| {
-        told.push(progress);
-        Some(1 + told.len() as u32 * 7 % 17)
+/// Steps of between 1 and 17 rows.
+fn steps() -> impl FnMut(Progress) -> Option<u32> {
+    let mut count = 0;
+    move |_| {
+        count += 1;
+        Some(1 + count * 7 % 17)
     }
 }
 
@@ -35,12 +36,17 @@ fn in_any_steps_it_is_the_same_picture() {
         let mut told = Vec::new();
         let (mut shown, camera, settings) = renderer(&edits, true);
         let whole = GPU.block_on(shown.display(&GPU, &camera, SIZE, &settings)).unwrap();
-        let stepped = shown.display_watched(&GPU, &camera, SIZE, &settings, &mut steps(&mut told));
-        assert!(GPU.block_on(stepped).unwrap() == whole, "shown, shadows {shadows}");
+        let mut step = steps();
+        let mut watch = |progress| {
+            told.push(progress);
+            step(progress)
+        };
+        let stepped = GPU.block_on(shown.display_watched(&GPU, &camera, SIZE, &settings, &mut watch));
+        assert!(stepped.unwrap() == whole, "shown, shadows {shadows}");
         // Neither is it what was left of the picture before.
         let (mut anew, ..) = renderer(&edits, true);
-        let stepped = anew.display_watched(&GPU, &camera, SIZE, &settings, &mut steps(&mut Vec::new()));
-        assert!(GPU.block_on(stepped).unwrap() == whole, "drawn anew, shadows {shadows}");
+        let stepped = GPU.block_on(anew.display_watched(&GPU, &camera, SIZE, &settings, &mut steps()));
+        assert!(stepped.unwrap() == whole, "drawn anew, shadows {shadows}");
 
         let samples = if shadows { 3 } else { 1 };
         assert!(told.len() > 4 * samples as usize, "{} steps", told.len());
@@ -50,8 +56,8 @@ fn in_any_steps_it_is_the_same_picture() {
 
         let (mut measured, camera, settings) = renderer(&edits, false);
         let whole = GPU.block_on(measured.linear(&GPU, &camera, SIZE, &settings)).unwrap();
-        let stepped = measured.linear_watched(&GPU, &camera, SIZE, &settings, &mut steps(&mut Vec::new()));
-        let stepped = GPU.block_on(stepped).unwrap();
+        let stepped = GPU.block_on(measured.linear_watched(&GPU, &camera, SIZE, &settings, &mut steps()));
+        let stepped = stepped.unwrap();
         let bits = |pixels: &[[f32; 3]]| pixels.iter().flatten().map(|number| number.to_bits()).collect::<Vec<_>>();
         assert!(bits(&stepped.pixels) == bits(&whole.pixels), "measured, shadows {shadows}");
     }

@@ -1,5 +1,6 @@
 //! A display of its own, the program on it, and hands: what a user sees and does, and what the process takes for it.
 
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -81,7 +82,17 @@ impl Drop for Desk {
 impl Desk {
     /// A display of this size, which the program's window fills, with these arguments.
     pub fn new(size: [u16; 2], arguments: &[&Path]) -> Self {
-        let mut desk = Self::without_window(size, arguments);
+        Self::shown(Self::without_window(size, arguments))
+    }
+
+    /// The same with what is remembered in this folder from earlier runs.
+    pub fn with_state_home(size: [u16; 2], arguments: &[&Path], home: &Path) -> Self {
+        Self::shown(Self::started(size, arguments, &[("XDG_STATE_HOME", home.as_os_str())]))
+    }
+
+    /// Waits for the window, which fills the display from then on.
+    fn shown(mut desk: Self) -> Self {
+        let size = desk.size;
         desk.window = desk.until("a window", |desk| desk.find());
         let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
         let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
@@ -106,6 +117,11 @@ impl Desk {
 
     /// The same before there is a window.
     pub fn without_window(size: [u16; 2], arguments: &[&Path]) -> Self {
+        Self::started(size, arguments, &[])
+    }
+
+    /// The same with these variables in the program's environment.
+    pub fn started(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
         // A window takes nine tenths of its monitor at most.
         let [width, height] = size.map(|side| side.div_ceil(9) * 10);
         let screen = format!("{width}x{height}x24");
@@ -127,6 +143,7 @@ impl Desk {
             .env("DISPLAY", &display)
             .env("XDG_RUNTIME_DIR", folder.path())
             .env("XDG_STATE_HOME", folder.path())
+            .envs(variables.iter().copied())
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .stderr(Stdio::piped())
@@ -354,6 +371,28 @@ impl Desk {
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
         let message = ClientMessageEvent::new(32, self.window, protocols, [delete, 0, 0, 0, 0]);
         self.connection.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap().check().unwrap();
+    }
+
+    /// The text on the clipboard, if there is one.
+    pub fn clipboard(&self) -> Option<String> {
+        use x11rb::protocol::Event;
+        use x11rb::protocol::xproto::{CreateWindowAux, WindowClass};
+        let connection = &self.connection;
+        let atom = |name: &[u8]| connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
+        let [clipboard, utf8, property] = [&b"CLIPBOARD"[..], b"UTF8_STRING", b"VELOUR_TEST"].map(atom);
+        let own = connection.generate_id().unwrap();
+        let (class, aux) = (WindowClass::INPUT_ONLY, CreateWindowAux::new());
+        connection.create_window(0, own, self.root, 0, 0, 1, 1, 0, class, 0, &aux).unwrap().check().unwrap();
+        connection.convert_selection(own, clipboard, utf8, property, 0_u32).unwrap().check().unwrap();
+        let is_there = loop {
+            match connection.wait_for_event().unwrap() {
+                Event::SelectionNotify(notice) if notice.requestor == own => break notice.property != 0,
+                _ => {}
+            }
+        };
+        let text = connection.get_property(true, own, property, AtomEnum::ANY, 0, 1 << 20).unwrap().reply().unwrap();
+        connection.destroy_window(own).unwrap().check().unwrap();
+        is_there.then(|| String::from_utf8(text.value).unwrap())
     }
 
     /// Waits for the program's end.

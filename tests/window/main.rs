@@ -9,6 +9,7 @@ mod feel;
 mod files;
 mod hands;
 mod panel;
+mod pictures;
 mod places;
 mod plates;
 mod shot;

@@ -3,13 +3,14 @@
 use super::super::commands::Command;
 use super::super::keys::{Input, ROWS};
 use super::super::panel;
+use super::super::saving::{Settings, Wish};
 use super::*;
 
 /// What can be told of a window from outside.
 #[derive(Debug, PartialEq)]
 struct Snapshot {
     edits: Edits,
-    flags: [bool; 2],
+    flags: [bool; 3],
     request: Option<Request>,
 }
 
@@ -24,8 +25,8 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 330.0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, .. } = window.state;
-    Snapshot { edits, flags: [panel_hidden, keys_shown], request }
+    let State { edits, panel_hidden, keys_shown, saving, .. } = window.state;
+    Snapshot { edits, flags: [panel_hidden, keys_shown, saving.form.is_some()], request }
 }
 
 #[test]
@@ -45,11 +46,15 @@ fn each_key_has_its_effect() {
         let is_right = match row.command {
             Command::Undo => exposure(&found.edits).is_none() && found.edits.camera == nothing.edits.camera,
             Command::Redo => exposure(&found.edits) == Some(3.0.into()) && found.edits.camera == nothing.edits.camera,
-            Command::Screenshot => found.request == Some(Request::Screenshot),
+            Command::SavePicture => {
+                found.request == Some(Request::SavePicture(Wish { settings: Settings::default(), name: None }))
+            }
+            Command::SavePictureAs => found.flags == [false, false, true] && found.request.is_none(),
+            Command::CopyCommand => found.request == Some(Request::CopyCommand),
             Command::SaveState => found.request == Some(Request::SaveState),
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
-            Command::Panel => found.flags == [true, false],
-            Command::Keys => found.flags == [false, true],
+            Command::Panel => found.flags == [true, false, false],
+            Command::Keys => found.flags == [false, true, false],
             Command::Home => found.edits.camera.is_none() && nothing.edits.camera.is_some(),
             Command::TurnBy(_) | Command::LookFrom(_) | Command::Frame => {
                 found.edits.camera.is_some() && found.edits.camera != nothing.edits.camera
@@ -94,6 +99,7 @@ fn no_key_fires_while_a_text_is_typed() {
         assert!(window.context.text_edit_focused(), "{row:?}");
         assert_eq!(window.state.edits.camera, before.camera, "{row:?}");
         assert!(!window.state.panel_hidden && !window.state.keys_shown, "{row:?}");
+        assert!(window.state.saving.form.is_none(), "{row:?}");
     }
     // In the picture keys are meant for the picture again.
     window.modifiers = Modifiers::NONE;

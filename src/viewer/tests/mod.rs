@@ -8,6 +8,7 @@ mod hands;
 mod keyboard;
 mod panel;
 mod picking_colors;
+mod saving;
 mod sections;
 mod undoing;
 
