@@ -111,14 +111,15 @@ impl Frame {
     pub fn begin(&mut self, gpu: &Gpu) -> Result<Result<Canvas, Unseen>, ViewerError> {
         let texture = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
-            CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
+            CurrentSurfaceTexture::Outdated => {
                 self.surface.configure(&gpu.device, &self.configuration);
                 return Ok(Err(Unseen::Again));
             }
             CurrentSurfaceTexture::Timeout => return Ok(Err(Unseen::Again)),
             CurrentSurfaceTexture::Occluded => return Ok(Err(Unseen::Hidden)),
+            CurrentSurfaceTexture::Lost => return Err(ViewerError::Lost("the window's surface is gone".to_owned())),
             CurrentSurfaceTexture::Validation => {
-                return Err(ViewerError::Window("its surface is not valid".to_owned()));
+                return Err(ViewerError::Lost("the window's surface is not valid".to_owned()));
             }
         };
         let view = texture.texture.create_view(&Default::default());

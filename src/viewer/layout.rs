@@ -3,9 +3,9 @@
 use egui::{Align2, Area, Id, Rect, Ui};
 
 use super::change::Change;
+use super::frame::pixel_size;
 use super::request::Request;
 use super::state::State;
-use super::frame::pixel_size;
 use super::{files, keys, navigate, panel, saving, sheet_view};
 
 /// The outcome of a pass over the user interface.

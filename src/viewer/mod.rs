@@ -4,14 +4,17 @@
 
 mod change;
 mod commands;
+mod easel;
 mod files;
 mod frame;
 mod frame_time;
 mod hands;
+mod health;
 mod history;
 mod keys;
 mod layout;
 mod loading;
+mod mirror;
 mod native;
 mod navigate;
 mod open;
@@ -64,6 +67,9 @@ pub enum ViewerError {
     /// The scene could not be taken to the device or drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The device is lost, for this reason, and no other one has come in its place.
+    #[error("the graphics device was lost ({0}), and none came back: start again, or use `velour render`")]
+    Lost(String),
     /// There is no scene to show, for the reason that whoever loads it gives.
     #[error("{0}")]
     Scene(String),

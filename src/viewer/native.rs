@@ -4,8 +4,10 @@
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod display;
 mod keeping;
+mod losing;
 mod memory;
 mod places;
+mod quietly;
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -17,10 +19,11 @@ use super::state::State;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
 pub(super) use keeping::{Job, Keeper, Means};
+pub(super) use losing::lose_as_asked;
 pub(super) use memory::{forget, remember, remembered};
 pub(super) use places::{folder, free_name, place};
 use places::{numbered_place, write};
-
+pub(super) use quietly::quietly;
 
 /// A point in time.
 pub(super) use std::time::Instant;
@@ -114,11 +117,17 @@ impl<Order: Send + 'static, Report: Send + 'static> Worker<Order, Report> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gone;
 
-impl<Order, Report> Drop for Worker<Order, Report> {
-    /// Waits for what it is at: drivers do not like to be left in the middle of something.
-    fn drop(&mut self) {
+impl<Order, Report> Worker<Order, Report> {
+    /// Waits for what it is at: drivers do not like to be left in the middle of something. It takes no orders any more.
+    pub fn end(&mut self) {
         self.orders = None;
         let _ = self.thread.take().map(std::thread::JoinHandle::join);
+    }
+}
+
+impl<Order, Report> Drop for Worker<Order, Report> {
+    fn drop(&mut self) {
+        self.end();
     }
 }
 

@@ -3,20 +3,23 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use egui::epaint::textures::TexturesDelta;
 use egui::{TextureId, ViewportId};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
 use super::ViewerError;
 use super::change::Change;
-use super::frame::{Frame, pixel_size};
-use super::native::{self, Gone, Instant, Worker};
+use super::easel::Easel;
+use super::frame::pixel_size;
+use super::health::Health;
+use super::mirror::Mirror;
+use super::native::{self, Gone, Instant, Means, Worker};
 use super::order::{Left, Order, Report, Textures, Unseen, Work};
-use super::painter::Painter;
 use super::screen::Screen;
 use super::state::State;
 use super::{theme, window_size};
-use crate::renderer::{Gpu, RenderError, device};
+use crate::renderer::{Gpu, RenderError};
 use crate::scene::Edits;
 use crate::table::SheenTable;
 
@@ -39,10 +42,12 @@ const BUILDING: Duration = Duration::from_millis(50);
 pub(super) struct Open {
     pub window: Arc<Window>,
     pub gpu: Gpu,
+    health: Health,
     pub egui: egui_winit::State,
     pub screen: Screen,
     /// Changes of egui's textures that the painter has not been told.
-    pub textures: Textures,
+    textures: Textures,
+    mirror: Mirror,
     /// When egui had its last pass.
     pub passed: Instant,
     /// When it gets its next; never while nothing happens.
@@ -50,6 +55,8 @@ pub(super) struct Open {
     /// What the title says that is being done.
     pub titled: Option<String>,
     painter: Worker<Order, Result<Report, ViewerError>>,
+    /// Whether the painter has ended, because its device is lost.
+    is_without_device: bool,
     /// Since when the painter has had an order.
     busy: Option<Instant>,
     /// Whether its next one has been announced.
@@ -78,32 +85,31 @@ pub(super) struct Open {
 
 impl Open {
     pub fn new(window: Arc<Window>, table: Arc<SheenTable>, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
-        let (surface, gpu) = native::block_on(open_surface(&window))?;
         let context = egui::Context::default();
         theme::apply(&context);
+        let Easel { gpu, health, painter } = Easel::new(&window, &context, table, wake)?;
         let egui = egui_winit::State::new(
-            context.clone(),
+            context,
             ViewportId::ROOT,
             &window,
             Some(window.scale_factor() as f32),
             window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
-        let frame = Frame::new(surface, &gpu, window.inner_size().into())?;
-        let mut painter = Painter::new(gpu.clone(), frame, context, table);
-        // Where the loop has ended nobody is left to be woken.
-        let painter = Worker::start(move |order| painter.obey(order), move || _ = wake.send_event(()));
         let now = native::now();
         let open = Self {
             window,
             gpu,
+            health,
             egui,
             screen: Screen::new(),
             textures: Textures::default(),
+            mirror: Mirror::default(),
             passed: now,
             due: Some(now),
             titled: None,
             painter,
+            is_without_device: false,
             busy: None,
             announced: false,
             left: Left::Nothing,
@@ -120,6 +126,46 @@ impl Open {
         };
         open.fit();
         Ok(open)
+    }
+
+    /// Lets go of a device that is lost: nothing is drawn until there is another one.
+    pub fn close_device(&mut self) {
+        self.painter.end();
+        self.is_without_device = true;
+        (self.busy, self.announced) = (None, false);
+        (self.is_eager, self.left) = (false, Left::Nothing);
+    }
+
+    /// Goes on with another device: all is drawn anew.
+    pub fn reopen_device(&mut self, table: Arc<SheenTable>, wake: EventLoopProxy<()>) -> Result<(), ViewerError> {
+        let Easel { gpu, health, painter } = Easel::new(&self.window, self.egui.egui_ctx(), table, wake)?;
+        (self.gpu, self.health, self.painter) = (gpu, health, painter);
+        self.is_without_device = false;
+        // What the painter before has made is gone with it.
+        self.tiles.clear();
+        self.asked = None;
+        self.textures = Textures(self.mirror.all());
+        self.screen.begin();
+        self.expose();
+        (self.untold, self.is_outdated, self.verdict) = (Change::Lights, false, None);
+        self.wake_in(Duration::ZERO);
+        Ok(())
+    }
+
+    /// What draws pictures that are saved.
+    pub fn means(&self, table: &Arc<SheenTable>) -> Means {
+        Means { gpu: self.gpu.clone(), table: table.clone(), health: self.health.clone() }
+    }
+
+    /// Whether a device is lost that was used until now, and why.
+    pub fn loss(&self) -> Option<String> {
+        self.health.ailment().filter(|_| !self.is_without_device)
+    }
+
+    /// Keeps what a pass has made of egui's textures.
+    pub fn take_textures(&mut self, textures: TexturesDelta) {
+        self.mirror.follow(&textures);
+        self.textures.0.append(textures);
     }
 
     /// Another scene is shown from now on.
@@ -182,7 +228,8 @@ impl Open {
     pub fn next(&self, slow: Duration, state: Option<&State>) -> Option<Instant> {
         let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
         let is_covered = state.is_some_and(|state| state.sheet.is_some());
-        let waits = self.busy.is_some() || self.is_hidden || self.is_minimised() || is_covered;
+        let waits =
+            self.busy.is_some() || self.is_without_device || self.is_hidden || self.is_minimised() || is_covered;
         let rested = if waits { None } else { self.rests_at() };
         [self.due, told, rested].into_iter().flatten().min()
     }
@@ -244,6 +291,9 @@ impl Open {
     }
 
     fn report(&mut self) -> Result<Option<Report>, ViewerError> {
+        if self.is_without_device {
+            return Ok(None);
+        }
         let gone = |Gone| ViewerError::Window("its painter has failed".to_owned());
         let Some(report) = self.painter.report().map_err(gone)?.transpose()? else { return Ok(None) };
         (self.busy, self.heard) = (None, native::now());
@@ -262,7 +312,7 @@ impl Open {
     /// Gives the painter its next order, if it is free and there is something to do.
     pub fn give(&mut self, state: Option<&State>) {
         // Minimised: what has changed is drawn when the window comes back.
-        if self.busy.is_some() || self.is_minimised() {
+        if self.busy.is_some() || self.is_minimised() || self.is_without_device {
             return;
         }
         let Some(work) = self.work(state) else { return };
@@ -325,21 +375,4 @@ impl Open {
         self.tiles = used;
         unused
     }
-}
-
-/// A surface of the window and a device that presents to it.
-async fn open_surface(window: &Arc<Window>) -> Result<(wgpu::Surface<'static>, Gpu), ViewerError> {
-    let mut failure = ViewerError::Device(device::DeviceError::NoAdapter);
-    for backends in device::BACKENDS {
-        let instance = device::instance_for_window(backends, Box::new(Arc::clone(window)));
-        let opened = match instance.create_surface(Arc::clone(window)) {
-            Ok(surface) => device::open(&instance, None, Some(&surface)).await.map(|gpu| (surface, gpu)),
-            Err(_) => continue,
-        };
-        match opened {
-            Ok(opened) => return Ok(opened),
-            Err(error) => failure = ViewerError::Device(error),
-        }
-    }
-    Err(failure)
 }

@@ -235,6 +235,11 @@ impl State {
         self.messages.push(what);
     }
 
+    /// Pictures that were drawn beside the one that is shown are gone.
+    pub fn lose_pictures(&mut self) {
+        self.sheet.iter_mut().for_each(|sheet| sheet.pictures = Default::default());
+    }
+
     /// Moves alpha on where it is being swept, to where it is at a time in seconds; whether it still is. It stops where the
     /// material is changed for another, and where alpha has been set by other means.
     pub fn sweep_on(&mut self, now: f64) -> bool {

@@ -15,9 +15,10 @@ use winit::window::{Fullscreen, Window, WindowId};
 use super::ViewerError;
 use super::change::Change;
 use super::files::{Files, is_state};
+use super::health::Losses;
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
-use super::native::{self, Keeper, Means};
+use super::native::{self, Instant, Keeper};
 use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
@@ -50,6 +51,10 @@ pub(super) struct App {
     wake: EventLoopProxy<()>,
     /// There from the first `resumed` on.
     open: Option<Open>,
+    /// When devices were lost, why the last one was, and when another one is tried.
+    losses: Losses,
+    lost: Option<String>,
+    reopen_at: Option<Instant>,
     /// Why the loop was left, if that was not the user's doing.
     pub failure: Option<ViewerError>,
 }
@@ -57,7 +62,21 @@ pub(super) struct App {
 impl App {
     pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
         let (loading, table, keeper) = (Some(loading), Arc::new(table), Keeper::default());
-        Self { files, loading, state: None, before: None, table, keeper, wake, open: None, failure: None }
+        let (losses, lost, reopen_at) = (Losses::default(), None, None);
+        Self {
+            files,
+            loading,
+            state: None,
+            before: None,
+            table,
+            keeper,
+            wake,
+            open: None,
+            losses,
+            lost,
+            reopen_at,
+            failure: None,
+        }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -163,7 +182,7 @@ impl App {
         open.egui.handle_platform_output(&open.window, std::mem::take(&mut output.platform_output));
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         let textures = open.screen.take(&layout, output);
-        open.textures.0.append(textures);
+        open.take_textures(textures);
         // What moves by itself goes on as fast as it is drawn.
         open.is_eager = delay.is_zero() && open.busy_for().is_some();
         let delay = if open.screen.is_stale() && !open.is_eager { delay } else { delay.max(REST) };
@@ -182,7 +201,7 @@ impl App {
         match (request, &mut self.state, &mut self.open) {
             (Request::Open(path), _, _) => self.bring(&path),
             (Request::SavePicture(wish), Some(state), Some(open)) => {
-                let means = Means { gpu: open.gpu.clone(), table: self.table.clone() };
+                let means = open.means(&self.table);
                 wishes::save(&mut self.keeper, means, open, state, wish);
             }
             (Request::StopSaving, _, _) => self.keeper.stop(),
@@ -202,8 +221,12 @@ impl App {
 
     /// What is due by now: the scene, what the painter has to tell, a pass, its next order.
     fn follow(&mut self) -> Result<(), ViewerError> {
-        if self.open.is_none() {
-            return Ok(());
+        let Some(open) = &self.open else { return Ok(()) };
+        if let Some(why) = open.loss() {
+            return Err(ViewerError::Lost(why));
+        }
+        if self.reopen_at.is_some_and(|at| at <= native::now()) {
+            self.reopen()?;
         }
         let was_loading = self.loading.is_some();
         self.receive_scene(Duration::ZERO)?;
@@ -234,7 +257,8 @@ impl App {
 
     /// Says what became of a picture that was to be saved; whether there is something to say.
     fn hear_keeper(&mut self) -> bool {
-        let heard = self.keeper.heard();
+        let Some(open) = &self.open else { return false };
+        let heard = self.keeper.heard(|| open.means(&self.table));
         let is_heard = heard.is_some();
         self.state.iter_mut().zip(heard).for_each(|(state, said)| state.say(said));
         is_heard
@@ -255,10 +279,38 @@ impl App {
 
     /// Ends the program where something has failed.
     fn heed(&mut self, event_loop: &ActiveEventLoop, done: Result<(), ViewerError>) {
+        let done = match done {
+            Err(ViewerError::Lost(why)) => self.lose_device(why),
+            done => done,
+        };
         if let Err(failure) = done {
             self.failure = Some(failure);
             self.close(event_loop);
         }
+    }
+
+    /// The device is lost: another one is to be tried, unless that was to no avail.
+    fn lose_device(&mut self, why: String) -> Result<(), ViewerError> {
+        let delay = self.losses.again(native::now());
+        let (Some(open), Some(delay)) = (&mut self.open, delay) else { return Err(ViewerError::Lost(why)) };
+        open.close_device();
+        self.reopen_at = native::after(delay);
+        self.lost = Some(why);
+        Ok(())
+    }
+
+    /// Goes on with another device; the state stays as it is.
+    fn reopen(&mut self) -> Result<(), ViewerError> {
+        self.reopen_at = None;
+        let Some(open) = &mut self.open else { return Ok(()) };
+        // Whatever kept it from opening may pass, as what took the last one has.
+        open.reopen_device(self.table.clone(), self.wake.clone())
+            .map_err(|error| ViewerError::Lost(error.to_string()))?;
+        let Some(state) = &mut self.state else { return Ok(()) };
+        state.lose_pictures();
+        let why = self.lost.take().unwrap_or_default();
+        state.say(format!("the graphics device was lost ({why}): all is drawn on another one now"));
+        Ok(())
     }
 
     /// The window is gone at once, whatever the painter is at.
@@ -320,6 +372,7 @@ impl ApplicationHandler for App {
         let done = self.follow();
         self.heed(event_loop, done);
         let due = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
+        let due = due.into_iter().chain(self.reopen_at).min();
         event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

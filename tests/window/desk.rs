@@ -85,9 +85,9 @@ impl Desk {
         Self::shown(Self::without_window(size, arguments))
     }
 
-    /// The same with what is remembered in this folder from earlier runs.
-    pub fn with_state_home(size: [u16; 2], arguments: &[&Path], home: &Path) -> Self {
-        Self::shown(Self::started(size, arguments, &[("XDG_STATE_HOME", home.as_os_str())]))
+    /// The same with these variables in the program's environment.
+    pub fn within(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
+        Self::shown(Self::started(size, arguments, variables))
     }
 
     /// Waits for the window, which fills the display from then on.
@@ -120,7 +120,7 @@ impl Desk {
         Self::started(size, arguments, &[])
     }
 
-    /// The same with these variables in the program's environment.
+    /// The same, with these variables in the program's environment.
     pub fn started(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
         // A window takes nine tenths of its monitor at most.
         let [width, height] = size.map(|side| side.div_ceil(9) * 10);

@@ -8,6 +8,7 @@ mod dragging;
 mod feel;
 mod files;
 mod hands;
+mod lost;
 mod panel;
 mod pictures;
 mod places;

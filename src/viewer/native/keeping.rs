@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::super::health::Health;
 use super::super::order::Shot;
 use super::super::pace::Pace;
 use super::super::saving::{Progress, Wish, extension};
-use super::{Task, block_on_device, finish, folder, now, numbered_place, one_line, place, write};
+use super::{Task, block_on_device, finish, folder, now, numbered_place, one_line, place, quietly, write};
 use crate::file::check_writable;
 use crate::picture::{Exposure, Format};
 use crate::renderer::{Effort, Gpu, Offscreen, RenderError};
@@ -32,13 +33,14 @@ pub struct Job {
 pub struct Means {
     pub gpu: Gpu,
     pub table: Arc<SheenTable>,
+    pub health: Health,
 }
 
 /// Saves pictures.
 #[derive(Default)]
 pub struct Keeper {
     at: Option<At>,
-    waiting: VecDeque<(Means, Job)>,
+    waiting: VecDeque<Job>,
 }
 
 /// The picture that is being saved.
@@ -60,8 +62,8 @@ struct Told {
 impl Keeper {
     /// Saves this picture once those before it are.
     pub fn keep(&mut self, means: Means, job: Job) {
-        self.waiting.push_back((means, job));
-        self.go_on();
+        self.waiting.push_back(job);
+        self.go_on(means);
     }
 
     /// How far the picture is that is being saved.
@@ -81,22 +83,22 @@ impl Keeper {
         self.at.iter().for_each(|at| at.told.is_stopped.store(true, Ordering::Relaxed));
     }
 
-    /// What became of a picture; none while one is drawn.
-    pub fn heard(&mut self) -> Option<String> {
+    /// What became of a picture; none while one is drawn. The next one is drawn by these means.
+    pub fn heard(&mut self, means: impl FnOnce() -> Means) -> Option<String> {
         let at = self.at.take_if(|at| at.task.is_done())?;
         let name = at.told.name.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        self.go_on();
+        self.go_on(means());
         // A panic has said what there is to say.
         let done = at.task.outcome().unwrap_or_else(|| Err("it could not be drawn".to_owned()));
         Some(done.unwrap_or_else(|why| format!("can't save {name}: {why}")))
     }
 
     /// Begins with the next one, if there is one and none is at work.
-    fn go_on(&mut self) {
+    fn go_on(&mut self, means: Means) {
         if self.at.is_some() {
             return;
         }
-        let Some((means, job)) = self.waiting.pop_front() else { return };
+        let Some(job) = self.waiting.pop_front() else { return };
         let (is_drawn, is_stopped) = (AtomicBool::new(false), AtomicBool::new(false));
         let name = Mutex::new("the picture".to_owned());
         let told = Arc::new(Told { name, share: AtomicU64::new(0), is_drawn, is_stopped });
@@ -116,7 +118,7 @@ impl Drop for Keeper {
 }
 
 /// Draws a picture and writes it; says where, or why not.
-fn save(Means { gpu, table }: &Means, job: &Job, told: &Told) -> Result<String, String> {
+fn save(Means { gpu, table, health }: &Means, job: &Job, told: &Told) -> Result<String, String> {
     let Wish { settings, name } = &job.wish;
     let free = || match name {
         Some(name) => place(settings, name),
@@ -126,7 +128,11 @@ fn save(Means { gpu, table }: &Means, job: &Job, told: &Told) -> Result<String, 
     *told.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(&path);
     // Before all the work.
     check_writable(&path).map_err(|error| error.to_string())?;
-    let drawn = within_memory(gpu, || draw(gpu, table, job, told));
+    let drawn = quietly(|| within_memory(gpu, || draw(gpu, table, job, told)));
+    let drawn = drawn.unwrap_or_else(|why| Err(Failed::Because(why)));
+    if let Some(why) = health.ailment() {
+        return Err(format!("the graphics device was lost ({why})"));
+    }
     let (bytes, notices) = match drawn {
         Ok(drawn) => drawn,
         Err(Failed::Stopped) => return Ok(format!("{} is not saved: it was cancelled", file_name(&path))),
@@ -161,11 +167,14 @@ impl From<RenderError> for Failed {
 /// Does work for which the device may have too little memory.
 fn within_memory<T>(gpu: &Gpu, work: impl FnOnce() -> Result<T, Failed>) -> Result<T, Failed> {
     // What does not come to be is used all the same.
-    let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory].map(|kind| gpu.device.push_error_scope(kind));
+    let scopes =
+        [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory].map(|kind| gpu.device.push_error_scope(kind));
     let done = work();
     let errors = scopes.into_iter().rev().map(|scope| block_on_device(gpu, scope.pop()));
     match errors.collect::<Vec<_>>().into_iter().flatten().next() {
-        Some(wgpu::Error::OutOfMemory { .. }) => Err(Failed::Because("the device has too little memory for it".to_owned())),
+        Some(wgpu::Error::OutOfMemory { .. }) => {
+            Err(Failed::Because("the device has too little memory for it".to_owned()))
+        }
         Some(error) => Err(Failed::Because(error.to_string())),
         None => done,
     }

@@ -16,19 +16,21 @@ pub fn show(ui: &Ui, picture: Rect, progress: &Progress) -> Option<Request> {
     let at = picture.left_bottom() + vec2(8.0, -8.0);
     let area = Area::new(Id::unique("saving")).order(Order::Foreground).fixed_pos(at).pivot(Align2::LEFT_BOTTOM);
     let shown = area.show(ui, |ui| {
-        Frame::window(ui.style()).show(ui, |ui| {
-            ui.set_width(width);
-            let more = if *waiting > 0 { format!(", then {waiting} more") } else { String::new() };
-            ui.add(Label::new(format!("{doing} {name}{more}")).truncate().selectable(false));
-            ui.horizontal(|ui| {
-                let about = "Ends the drawing of this picture: nothing of it is saved.";
-                let room = ui.available_width() - 60.0;
-                ui.add(ProgressBar::new(*share).desired_width(room).show_percentage());
-                button(ui, about, Button::new("Cancel"))
+        Frame::window(ui.style())
+            .show(ui, |ui| {
+                ui.set_width(width);
+                let more = if *waiting > 0 { format!(", then {waiting} more") } else { String::new() };
+                let percent = (100.0 * share).floor();
+                ui.add(Label::new(format!("{doing} {name}: {percent} %{more}")).truncate().selectable(false));
+                ui.horizontal(|ui| {
+                    let about = "Ends the drawing of this picture: nothing of it is saved.";
+                    let room = ui.available_width() - 60.0;
+                    ui.add(ProgressBar::new(*share).desired_width(room));
+                    button(ui, about, Button::new("Cancel"))
+                })
+                .inner
             })
             .inner
-        })
-        .inner
     });
     shown.inner.then_some(Request::StopSaving)
 }

@@ -1,6 +1,6 @@
 //! The box in which the user says how a picture is to be saved.
 
-use egui::{Align2, Button, Context, Id, Key, Label, Response, RichText, ScrollArea, TextEdit, Ui, vec2};
+use egui::{Align2, Button, Context, Id, Key, Label, Response, ScrollArea, TextEdit, Ui, vec2};
 
 use super::super::native;
 use super::super::widgets::{About, Touch, button, choice, control, count_box, list, refused, row};
@@ -74,7 +74,11 @@ impl Form {
         *samples = touch.value(*samples, Settings::default().samples);
         let formats = [
             (".png", Format::Png, "The picture as it is shown: exposed, through the tone curve, 8 bits a channel."),
-            (".exr", Format::Exr, "Linear radiance as it is, in 32-bit floats: neither exposed nor through a tone curve."),
+            (
+                ".exr",
+                Format::Exr,
+                "Linear radiance as it is, in 32-bit floats: neither exposed nor through a tone curve.",
+            ),
         ];
         let touch = row(ui, "format", "What the file holds.", |ui| choice(ui, *format, &formats));
         *format = touch.value(*format, Format::Png);
@@ -84,13 +88,17 @@ impl Form {
         let place = native::place(&self.settings, &self.name);
         let size = self.settings.size.unwrap_or(shown);
         let why_not = too_large(size, longest).or(place.as_ref().err().cloned());
+        ui.add_space(4.0);
         self.say(ui, place.map(|place| place.display().to_string()).as_deref().unwrap_or_default(), why_not.as_deref());
         ui.add_space(4.0);
         ui.horizontal(|ui| {
-            let about = About::unless("Draws the picture and saves it. The window can be used meanwhile.", why_not.as_deref());
+            let about =
+                About::unless("Draws the picture and saves it. The window can be used meanwhile.", why_not.as_deref());
             if button(ui, about, Button::new("Save")) || left_by == Some(Key::Enter) && why_not.is_none() {
                 End::Save
-            } else if button(ui, "Closes this box: nothing is saved (Esc).", Button::new("Cancel")) || left_by == Some(Key::Escape) {
+            } else if button(ui, "Closes this box: nothing is saved (Esc).", Button::new("Cancel"))
+                || left_by == Some(Key::Escape)
+            {
                 End::Cancel
             } else {
                 End::Stay
@@ -107,15 +115,17 @@ impl Form {
         let names = SIZES.map(text);
         let mut sizes = vec![(as_shown.as_str(), None, "As many pixels as the picture has in the window.")];
         let listed = names.iter().zip(SIZES);
-        sizes.extend(listed.map(|(name, size)| (name.as_str(), Some(size), "So many pixels, whatever the window's size.")));
+        sizes.extend(
+            listed.map(|(name, size)| (name.as_str(), Some(size), "So many pixels, whatever the window's size.")),
+        );
         let other = size.map(text).unwrap_or_default();
         if !sizes.iter().any(|(_, listed, _)| listed == size) {
             sizes.push((&other, *size, "The width and height below."));
         }
         let about = "How many pixels the picture has. The view from top to bottom stays the same, whatever the size.";
         let touch = row(ui, "size", about, |ui| {
-            ui.set_max_width(WIDTH);
-            list(ui, "size", about, *size, &sizes)
+            let room = vec2(WIDTH, ui.spacing().interact_size.y);
+            ui.allocate_ui(room, |ui| list(ui, "size", about, *size, &sizes)).inner
         });
         *size = touch.value(*size, None);
         let [width, height] = size.unwrap_or(shown);
@@ -134,7 +144,8 @@ impl Form {
     fn place(&mut self, ui: &mut Ui) -> Option<Key> {
         let about = "The folder that the picture is saved in; it is there already. Empty: the one that the program was started in.";
         let folder = self.settings.folder.clone().unwrap_or_default();
-        let touch = row(ui, "folder", about, |ui| text_box(ui, about, &folder, &native::folder(None).display().to_string()).0);
+        let touch =
+            row(ui, "folder", about, |ui| text_box(ui, about, &folder, &native::folder(None).display().to_string()).0);
         let folder = touch.value(folder, String::new());
         self.settings.folder = (!folder.is_empty()).then_some(folder);
         let about = "The file's name. What is there already is not written over: the next free name is taken.";
@@ -157,9 +168,9 @@ impl Form {
             Some(why_not) => format!("can't: {why_not}"),
             None => format!("will be {place}"),
         };
-        ui.add(Label::new(RichText::new(said).small()).wrap());
+        ui.add(Label::new(said).wrap());
         if let Some(complaint) = &self.complaint {
-            ui.add(Label::new(RichText::new(complaint).small()).wrap());
+            ui.add(Label::new(complaint).wrap());
         }
     }
 }

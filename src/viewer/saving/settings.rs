@@ -95,7 +95,9 @@ mod tests {
 
     #[test]
     fn what_cannot_be_used_is_nothing() {
-        let text = |size: &str, samples: &str, format: &str| format!("size = {size}\nsamples = {samples}\nformat = \"{format}\"\n");
+        let text = |size: &str, samples: &str, format: &str| {
+            format!("size = {size}\nsamples = {samples}\nformat = \"{format}\"\n")
+        };
         assert!(Settings::from_text(&text("[1, 65536]", "1", "png")).is_some());
         for (size, samples, format) in [
             ("[0, 1]", "1", "png"),

@@ -18,12 +18,8 @@ fn open() -> (Window, tempfile::TempDir) {
 
 fn click(window: &mut Window, button: &str) -> Option<Request> {
     let at = window.place(Role::Button, button).center();
-    let press = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let press =
+        |pressed| Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     window.pass(vec![Event::PointerMoved(at)]);
     window.pass(vec![press(true)]);
     window.pass(vec![press(false)]);
@@ -127,14 +123,18 @@ fn esc_and_cancel_close_the_box_and_save_nothing() {
     assert_eq!(click(&mut window, "Cancel"), None);
     assert!(form(&window).is_none());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    assert_eq!(window.state.saving.last, Settings { folder: window.state.saving.last.folder.clone(), ..Settings::default() });
+    assert_eq!(
+        window.state.saving.last,
+        Settings { folder: window.state.saving.last.folder.clone(), ..Settings::default() }
+    );
 }
 
 #[test]
 fn every_control_of_the_box_says_what_it_is_for_and_goes_back() {
     let before = controls(&Window::new(scene(1.0))).len();
     let (mut window, _folder) = open();
-    let touched = Settings { size: Some([640, 480]), samples: 7, format: Format::Exr, ..form(&window).unwrap().clone() };
+    let touched =
+        Settings { size: Some([640, 480]), samples: 7, format: Format::Exr, ..form(&window).unwrap().clone() };
     window.state.saving.form.as_mut().unwrap().settings = touched.clone();
     window.rest(3);
     let panel = window.size.x - crate::viewer::panel::WIDTH;
@@ -170,7 +170,7 @@ fn how_far_a_picture_is_shows_over_the_picture_and_can_be_cancelled() {
     let (name, doing) = ("a.png".to_owned(), "Drawing");
     window.state.saving.progress = Some(Progress { name, doing, share: 0.25, waiting: 1 });
     window.rest(3);
-    assert!(says(&window, "Drawing a.png, then 1 more"));
+    assert!(says(&window, "Drawing a.png: 25 %, then 1 more"));
     let at = window.place(Role::Button, "Cancel").center();
     assert!(window.hover_text(at).is_some_and(|text| text.contains("nothing of it is saved")));
     assert_eq!(click(&mut window, "Cancel"), Some(Request::StopSaving));
