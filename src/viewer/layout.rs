@@ -27,7 +27,7 @@ impl Default for Layout {
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let outlined = state.outlined;
     // Before the panel, where a key may end what is typed.
-    let commands = keys::pressed(ui);
+    let commands = if state.hands.grab.is_some() { Vec::new() } else { keys::pressed(ui) };
     panel::sweep(ui, state);
     let area = ui.available_rect_before_wrap();
     fold(area, state);

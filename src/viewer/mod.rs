@@ -2,17 +2,23 @@
 //!
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
+mod adding;
+mod aim;
 mod change;
 mod commands;
 mod easel;
 mod files;
 mod frame;
 mod frame_time;
+mod gizmo;
+mod grab;
 mod hands;
 mod health;
 mod history;
 mod keys;
+mod lamps;
 mod layout;
+mod lens;
 mod loading;
 mod mirror;
 mod native;

@@ -69,6 +69,8 @@ pub(super) struct Open {
     /// When the frame time was told last.
     timed: Instant,
     is_hidden: bool,
+    /// Whether the system has said that nothing of the window can be seen.
+    is_out_of_sight: bool,
     /// What has changed in the picture that the painter has not been told.
     untold: Change,
     /// Textures of the sheet's pictures that the painter has made.
@@ -117,6 +119,7 @@ impl Open {
             heard: now,
             timed: now,
             is_hidden: false,
+            is_out_of_sight: false,
             untold: Change::None,
             tiles: Vec::new(),
             asked: None,
@@ -228,8 +231,12 @@ impl Open {
     pub fn next(&self, slow: Duration, state: Option<&State>) -> Option<Instant> {
         let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
         let is_covered = state.is_some_and(|state| state.sheet.is_some());
-        let waits =
-            self.busy.is_some() || self.is_without_device || self.is_hidden || self.is_minimised() || is_covered;
+        let waits = self.busy.is_some()
+            || self.is_without_device
+            || self.is_hidden
+            || self.is_out_of_sight
+            || self.is_minimised()
+            || is_covered;
         let rested = if waits { None } else { self.rests_at() };
         [self.due, told, rested].into_iter().flatten().min()
     }
@@ -344,15 +351,20 @@ impl Open {
         self.painter.give(order);
     }
 
+    /// Nobody can see the window.
+    pub fn hide(&mut self) {
+        self.is_out_of_sight = true;
+    }
+
     /// The system has something of the window shown again.
     pub fn expose(&mut self) {
-        self.is_hidden = false;
+        (self.is_hidden, self.is_out_of_sight) = (false, false);
         self.screen.lose();
     }
 
     /// What the painter is to do next; nothing while nobody can see the window.
     fn work(&self, state: Option<&State>) -> Option<Work> {
-        if self.is_hidden {
+        if self.is_hidden || self.is_out_of_sight {
             return None;
         }
         let rests = self.rests_at().is_some_and(|at| at <= native::now());

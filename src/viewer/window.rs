@@ -353,6 +353,8 @@ impl ApplicationHandler for App {
             WindowEvent::CloseRequested => self.close(event_loop),
             // The system may have lost what it had. egui answers by asking for a repaint: heeding that, the window would never rest.
             WindowEvent::RedrawRequested => open.expose(),
+            // Nothing is drawn that nobody sees.
+            WindowEvent::Occluded(true) => open.hide(),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => {
                 open.fit();
                 open.expose();

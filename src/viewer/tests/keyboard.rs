@@ -1,7 +1,9 @@
 //! Each key of the table has its effect, and none while a text is typed.
 
 use super::super::commands::Command;
+use super::super::grab::Tool;
 use super::super::keys::{Input, ROWS};
+use super::super::lamps::LightId;
 use super::super::panel;
 use super::super::saving::{Settings, Wish};
 use super::*;
@@ -12,6 +14,8 @@ struct Snapshot {
     edits: Edits,
     flags: [bool; 3],
     request: Option<Request>,
+    /// What is done with the light in the hand.
+    tool: Option<Tool>,
 }
 
 /// A window in which every key has something to do, by a press with these modifiers.
@@ -23,10 +27,12 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.pass(vec![]);
     window.state.undo();
     window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 330.0));
+    window.state.chosen_light = Some(LightId::Area(0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, saving, .. } = window.state;
-    Snapshot { edits, flags: [panel_hidden, keys_shown, saving.form.is_some()], request }
+    let State { edits, panel_hidden, keys_shown, saving, hands, .. } = window.state;
+    let flags = [panel_hidden, keys_shown, saving.form.is_some()];
+    Snapshot { edits, flags, request, tool: hands.grab.map(|grab| grab.tool) }
 }
 
 #[test]
@@ -50,18 +56,22 @@ fn each_key_has_its_effect() {
                 found.request == Some(Request::SavePicture(Wish { settings: Settings::default(), name: None }))
             }
             Command::SavePictureAs => found.flags == [false, false, true] && found.request.is_none(),
-            Command::CopyCommand => found.request == Some(Request::CopyCommand),
+            Command::CopyPicture => found.request == Some(Request::CopyCommand),
             Command::SaveState => found.request == Some(Request::SaveState),
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
             Command::Panel => found.flags == [true, false, false],
             Command::Keys => found.flags == [false, true, false],
+            Command::Grab(tool) => found.tool == Some(tool) && found.edits.lights.is_empty(),
+            Command::DuplicateLight => found.tool == Some(Tool::Move) && found.edits.added_lights.len() == 1,
+            Command::DeleteLight => found.edits.lights[&0].removed == Some(true),
             Command::Home => found.edits.camera.is_none() && nothing.edits.camera.is_some(),
             Command::TurnBy(_) | Command::LookFrom(_) | Command::Frame => {
                 found.edits.camera.is_some() && found.edits.camera != nothing.edits.camera
             }
             // Has a test of its own.
             Command::Close => true,
-            Command::Turn | Command::Pan | Command::Zoom | Command::Pick | Command::Centre | Command::Fly(_) => false,
+            Command::Turn | Command::Pan | Command::Zoom | Command::Pick => false,
+            Command::Centre | Command::Fly(_) | Command::Aim => false,
         };
         assert!(is_right, "{row:?}: {found:?}");
     }
