@@ -56,7 +56,7 @@ mod tests {
     fn pass(mirror: &mut Mirror, id: u64, delta: Option<ImageDelta>) {
         let mut changes = TexturesDelta::default();
         match delta {
-            Some(delta) => _ = changes.set.entry(TextureId::Managed(id)).or_default().push(delta),
+            Some(delta) => changes.set.entry(TextureId::Managed(id)).or_default().push(delta),
             None => _ = changes.free.insert(TextureId::Managed(id)),
         }
         mirror.follow(&changes);

@@ -3,6 +3,7 @@
 //! `scripts/setup window` installs the display, `cargo test --test window` runs these; `cargo test` alone does not.
 #![cfg(target_os = "linux")]
 
+mod clipboard;
 mod desk;
 mod dragging;
 mod feel;
