@@ -14,6 +14,7 @@ mod panel;
 mod pictures;
 mod places;
 mod plates;
+mod saved;
 mod shot;
 mod small;
 
