@@ -123,7 +123,7 @@ impl Form {
             sizes.push((&other, *size, "The width and height below."));
         }
         let about = "How many pixels the picture has. The view from top to bottom stays the same, whatever the size.";
-        let touch = row(ui, "size", about, |ui| {
+        let touch = row(ui, "picture size", about, |ui| {
             let room = vec2(WIDTH, ui.spacing().interact_size.y);
             ui.allocate_ui(room, |ui| list(ui, "size", about, *size, &sizes)).inner
         });

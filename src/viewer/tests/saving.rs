@@ -54,7 +54,7 @@ fn retype(window: &mut Window, row: &str, text: &str) {
 fn what_is_set_in_the_box_is_saved() {
     let (mut window, folder) = open();
     assert_eq!(form(&window).map(|settings| settings.size), Some(None));
-    let [width, height] = [0, 1].map(|index| window.below("size", Role::SpinButton)[index]);
+    let [width, height] = [0, 1].map(|index| window.below("picture size", Role::SpinButton)[index]);
     window.type_into(width, "1000+920");
     window.type_into(height, "1080");
     let samples = window.in_row("samples", Role::SpinButton)[0];
@@ -105,7 +105,7 @@ fn the_box_proposes_what_is_free_and_says_what_is_not() {
 fn what_is_too_large_is_said() {
     let (mut window, _folder) = open();
     for (text, is_possible) in [("5000", true), ("5001", false), ("wide", false), ("16", true)] {
-        let width = window.below("size", Role::SpinButton)[0];
+        let width = window.below("picture size", Role::SpinButton)[0];
         window.type_into(width, text);
         window.rest(2);
         assert_eq!(says(&window, "up to 5000 a side") || says(&window, "is no number"), !is_possible, "{text}");
