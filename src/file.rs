@@ -20,6 +20,12 @@ pub enum WriteError {
         /// Where it was to be written.
         path: PathBuf,
     },
+    /// There is a file that is not to be written over.
+    #[error("{}: is there already: choose another name", path.display())]
+    Taken {
+        /// Where it was to be written.
+        path: PathBuf,
+    },
     /// A folder stands in its place.
     #[error("{}: is a folder: give a file's name", path.display())]
     Folder {
@@ -49,6 +55,19 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     Ok(())
 }
 
+/// The same where there is no file yet: what is there is left as it is.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let mut file = temporary_beside(path)?;
+    file.write_all(bytes).map_err(|source| WriteError::Path { path: path.to_owned(), source })?;
+    match file.persist_noclobber(path) {
+        Ok(_) => Ok(()),
+        Err(persist) if persist.error.kind() == std::io::ErrorKind::AlreadyExists => {
+            Err(WriteError::Taken { path: path.to_owned() })
+        }
+        Err(persist) => Err(WriteError::Path { path: path.to_owned(), source: persist.error }),
+    }
+}
+
 fn temporary_beside(path: &Path) -> Result<tempfile::NamedTempFile, WriteError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
@@ -75,6 +94,17 @@ mod tests {
         write_atomically(&path, b"first").unwrap();
         write_atomically(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_there_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        write_new(&path, b"first").unwrap();
+        assert!(matches!(write_new(&path, b"second"), Err(WriteError::Taken { .. })));
+        assert!(write_new(folder.path(), b"x").is_err());
+        assert_eq!(std::fs::read(&path).unwrap(), b"first");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

@@ -6,7 +6,8 @@ use wgpu::{Adapter, Backends, Device, DownlevelFlags, Instance, InstanceDescript
 
 use super::targets::RadianceFormat;
 
-/// An opened graphics device.
+/// An opened graphics device. A clone is another handle to it.
+#[derive(Clone)]
 pub struct Gpu {
     /// The driver's adapter: its name, features and limits.
     pub adapter: Adapter,

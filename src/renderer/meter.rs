@@ -88,7 +88,14 @@ impl Renderer {
         self.blended.prepare(gpu, &self.resident.draws, &meter.view);
         self.surfaces.prepare(gpu, &self.resident, &[Stage::Unshadowed]);
         let things = (&self.resident, &self.blended);
-        self.surfaces.encode(&gpu.queue, &mut encoder, &meter.targets, things, (&meter.view, settings, gain));
+        self.surfaces.encode(
+            &gpu.queue,
+            &mut encoder,
+            &meter.targets,
+            things,
+            (&meter.view, settings, gain),
+            &(0..meter.size[1]),
+        );
         let output = (&meter.canvas.view, Rect::full(meter.size));
         let drawn = Drawn::Targets(&meter.targets);
         meter.display.encode((&gpu.device, &gpu.queue), &mut encoder, &drawn, output, Showing::Measured);

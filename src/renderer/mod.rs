@@ -47,7 +47,7 @@ mod view;
 
 pub use device::{DeviceError, Gpu};
 pub use display::Showing;
-pub use offscreen::{Effort, Offscreen, SAMPLES};
+pub use offscreen::{Effort, Offscreen, Progress, SAMPLES, Watch};
 pub use sample::Sample;
 pub use shader::SURFACES_WGSL;
 pub use shadows::{Blockers, Built};
@@ -106,6 +106,9 @@ pub enum RenderError {
     /// The picture could not be copied from the device.
     #[error("the device did not hand the picture over ({0}): try a smaller --size or another --adapter")]
     Readback(String),
+    /// Whoever watched the drawing has ended it.
+    #[error("the drawing was stopped")]
+    Stopped,
 }
 
 /// In which formats radiance is kept and shown.
@@ -152,6 +155,11 @@ enum Latest {
 }
 
 impl Renderer {
+    /// No picture but the one that is drawn is kept: parts of a sample take no second one, and what was drawn before is shown no more.
+    fn keep_one(&mut self) {
+        self.shadowed.keep_one();
+    }
+
     /// Uploads the scene and makes the pipelines. Drivers may put off compiling them until the first frame. There are no
     /// shadows before [`Self::receive`].
     pub fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
@@ -225,9 +233,9 @@ impl Renderer {
         self.draw_rows(gpu, encoder, size, frame, sample, 0..size[1]);
     }
 
-    /// The same in parts, for samples that take long: of one with shadows it draws these rows. The first part starts at row 0; with
-    /// the last one, which ends at the height, the sample is there, and until then what was drawn before is shown. Parts of one
-    /// sample are drawn with the same values of everything. Where there are no shadows all rows are drawn.
+    /// The same in parts, for samples that take long: it draws these rows. The first part starts at row 0; with the last one, which ends
+    /// at the height, the sample is there. Until then what was drawn before is shown, or, without shadows, what is there of the
+    /// rows. Parts of one sample are drawn with the same values of everything.
     pub fn draw_rows(
         &mut self,
         gpu: &Gpu,
@@ -251,7 +259,7 @@ impl Renderer {
             }
             return;
         }
-        self.draw_unshadowed(gpu, encoder, size, (view, settings, showing));
+        self.draw_unshadowed(gpu, encoder, size, (view, settings, showing), &rows);
         self.latest = Latest::Unshadowed;
     }
 
@@ -266,7 +274,7 @@ impl Renderer {
         frame: (&View, &Settings, Showing),
     ) {
         self.blended.prepare(gpu, &self.resident.draws, frame.0);
-        self.draw_unshadowed(gpu, encoder, size, frame);
+        self.draw_unshadowed(gpu, encoder, size, frame, &(0..size[1]));
         let varied = self.resident.draws.has_patterns();
         if let (Some(seen), Some(targets)) = (self.shadowed.seen(gpu, encoder, varied), &self.targets) {
             let reprojection = self.reprojection.get_or_insert_with(|| Reprojection::new(&gpu.device));
@@ -287,6 +295,7 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         size: [u32; 2],
         (view, settings, showing): (&View, &Settings, Showing),
+        rows: &Range<u32>,
     ) {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
@@ -297,7 +306,7 @@ impl Renderer {
         };
         let things = (&self.resident, &self.blended);
         self.surfaces.prepare(gpu, &self.resident, &[Stage::Unshadowed]);
-        self.surfaces.encode(&gpu.queue, encoder, &targets, things, (view, settings, showing.gain()));
+        self.surfaces.encode(&gpu.queue, encoder, &targets, things, (view, settings, showing.gain()), rows);
         self.targets = Some(targets);
     }
 

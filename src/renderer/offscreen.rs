@@ -32,6 +32,26 @@ pub struct Effort {
     pub spread: bool,
 }
 
+/// How far a picture is that is being drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Samples of pixels so far,
+    pub done: u64,
+    /// and in the end.
+    pub all: u64,
+    /// Rows of the part of the picture that is being drawn.
+    pub height: u32,
+}
+
+/// Who watches a drawing: asked before each of its steps, when those before have been submitted, how many rows of a sample the
+/// next one draws, at least 1; none ends it. In as many steps as you like it is the same picture.
+pub type Watch<'a> = dyn FnMut(Progress) -> Option<u32> + 'a;
+
+/// Draws each sample in one step.
+fn unwatched(_: Progress) -> Option<u32> {
+    Some(u32::MAX)
+}
+
 /// Samples a pixel where nobody has said how many: filtered, they leave no noise to see.
 pub const SAMPLES: u32 = 3;
 
@@ -89,7 +109,9 @@ impl Offscreen {
 
     fn new(gpu: &Gpu, format: Format, table: &SheenTable, drawn: &Drawn) -> Result<Self, RenderError> {
         let effort = Effort { samples: SAMPLES, seed: 0, spread: format.radiance.samples > 1 };
-        let mut offscreen = Self { renderer: Renderer::new(gpu, format, table, drawn)?, format, notice: None, effort };
+        let mut renderer = Renderer::new(gpu, format, table, drawn)?;
+        renderer.keep_one();
+        let mut offscreen = Self { renderer, format, notice: None, effort };
         offscreen.build(gpu, drawn);
         Ok(offscreen)
     }
@@ -166,10 +188,23 @@ impl Offscreen {
         size: [u32; 2],
         settings: &Settings,
     ) -> Result<DisplayImage, RenderError> {
+        self.display_watched(gpu, camera, size, settings, &mut unwatched).await
+    }
+
+    /// The same while somebody watches, who may end it: [`RenderError::Stopped`].
+    pub async fn display_watched(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Result<DisplayImage, RenderError> {
         assert!(!self.format.measured, "a renderer for linear pictures was asked for a shown one");
         let showing = Showing::Shown { exposure: settings.exposure, tone: settings.tone };
-        let pixels = self.pixels(gpu, camera, size, settings, showing, |texel: [u8; 4]| [texel[0], texel[1], texel[2]]);
-        Ok(DisplayImage { width: size[0], height: size[1], pixels: pixels.await? })
+        let convert = |texel: [u8; 4]| [texel[0], texel[1], texel[2]];
+        let pixels = self.pixels(gpu, (camera, size), (settings, showing), watch, convert).await?;
+        Ok(DisplayImage { width: size[0], height: size[1], pixels })
     }
 
     /// Linear radiance, never filtered; reads the settings as `display` does. Made with one sample per pixel, each pixel is the
@@ -181,16 +216,29 @@ impl Offscreen {
         size: [u32; 2],
         settings: &Settings,
     ) -> Result<LinearImage, RenderError> {
+        self.linear_watched(gpu, camera, size, settings, &mut unwatched).await
+    }
+
+    /// The same while somebody watches, who may end it: [`RenderError::Stopped`].
+    pub async fn linear_watched(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Result<LinearImage, RenderError> {
         assert!(self.format.measured, "a renderer for shown pictures was asked for a linear one");
+        let (seen, how) = ((camera, size), (settings, Showing::Measured));
         let pixels = match self.format.radiance.bits() {
             16 => {
                 let convert =
                     |texel: [u16; 4]| [texel[0], texel[1], texel[2]].map(|bits| f16::from_bits(bits).to_f32());
-                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+                self.pixels(gpu, seen, how, watch, convert).await?
             }
             _ => {
                 let convert = |texel: [f32; 4]| [texel[0], texel[1], texel[2]];
-                self.pixels(gpu, camera, size, settings, Showing::Measured, convert).await?
+                self.pixels(gpu, seen, how, watch, convert).await?
             }
         };
         Ok(LinearImage { width: size[0], height: size[1], pixels })
@@ -199,10 +247,9 @@ impl Offscreen {
     async fn pixels<Texel: bytemuck::AnyBitPattern, Pixel: Clone + Default>(
         &mut self,
         gpu: &Gpu,
-        camera: &Camera,
-        size: [u32; 2],
-        settings: &Settings,
-        showing: Showing,
+        (camera, size): (&Camera, [u32; 2]),
+        (settings, showing): (&Settings, Showing),
+        watch: &mut Watch<'_>,
         convert: impl Fn(Texel) -> Pixel,
     ) -> Result<Vec<Pixel>, RenderError> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
@@ -211,9 +258,13 @@ impl Offscreen {
         }
         let mut pixels = vec![Pixel::default(); size[0] as usize * size[1] as usize];
         self.notice = None;
+        let samples = if self.renderer.has_shadows(settings) { self.effort.samples } else { 1 };
+        let of = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]) * u64::from(samples);
+        let mut progress = Progress { done: 0, all: of(size), height: 0 };
         for tile in Rect::tiles(size, TILE_SIDE) {
             let view = View::new(camera, size, tile);
-            let rows = self.tile(gpu, &view, tile, settings, showing).await?;
+            progress.height = tile.height;
+            let rows = self.tile(gpu, (&view, tile), (settings, showing), samples, &mut progress, watch).await?;
             self.notice = self.notice.take().or_else(|| self.renderer.notice().map(str::to_owned));
             let texel_size = size_of::<Texel>();
             let stride = rows.len() / tile.height as usize;
@@ -232,23 +283,29 @@ impl Offscreen {
     async fn tile(
         &mut self,
         gpu: &Gpu,
-        view: &View,
-        tile: Rect,
-        settings: &Settings,
-        showing: Showing,
+        (view, tile): (&View, Rect),
+        (settings, showing): (&Settings, Showing),
+        samples: u32,
+        progress: &mut Progress,
+        watch: &mut Watch<'_>,
     ) -> Result<Vec<u8>, RenderError> {
         let size = [tile.width, tile.height];
         let canvas = Canvas::new(gpu, size, self.format.output);
         let begin = || gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-        let Effort { samples, seed, spread } = self.effort;
-        let samples = if self.renderer.has_shadows(settings) { samples } else { 1 };
-        let mut encoder = begin();
+        let Effort { seed, spread, .. } = self.effort;
         for index in 0..samples {
-            let sample = Sample { index, seed, spread };
-            self.renderer.draw(gpu, &mut encoder, size, (view, settings, showing), &sample);
-            // What is written for a sample counts for all that is submitted with it.
-            gpu.queue.submit([std::mem::replace(&mut encoder, begin()).finish()]);
+            let (sample, mut first) = (Sample { index, seed, spread }, 0);
+            while first < tile.height {
+                let count = watch(*progress).ok_or(RenderError::Stopped)?.clamp(1, tile.height - first);
+                let (rows, mut encoder) = (first..first + count, begin());
+                self.renderer.draw_rows(gpu, &mut encoder, size, (view, settings, showing), &sample, rows);
+                // What is written for a sample counts for all that is submitted with it.
+                gpu.queue.submit([encoder.finish()]);
+                first += count;
+                progress.done += u64::from(count) * u64::from(tile.width);
+            }
         }
+        let mut encoder = begin();
         self.renderer.show(gpu, &mut encoder, (&canvas.view, Rect::full(size)), showing);
         canvas.read(gpu, encoder).await
     }

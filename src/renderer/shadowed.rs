@@ -26,6 +26,8 @@ pub(super) struct Shadowed {
     /// The index of the one that is drawn.
     drawn: usize,
     pictures_made: usize,
+    /// Whether what is shown is kept while a sample is drawn in parts.
+    keeps_shown: bool,
 }
 
 /// Of the targets.
@@ -77,7 +79,13 @@ impl Shadowed {
             shown: 0,
             drawn: 0,
             pictures_made: 0,
+            keeps_shown: true,
         }
+    }
+
+    /// Keeps no picture but the one that is drawn.
+    pub fn keep_one(&mut self) {
+        self.keeps_shown = false;
     }
 
     pub fn made(&self) -> usize {
@@ -101,9 +109,9 @@ impl Shadowed {
         let device = &gpu.device;
         if index == 0 && rows.start == 0 {
             // What takes long is drawn apart, so that what is shown can be looked up meanwhile.
-            let is_apart = rows.end < size[1];
+            let is_apart = rows.end < size[1] && self.keeps_shown;
             let fits = self.pictures[self.shown].as_ref().is_none_or(|picture| picture.size == size);
-            self.drawn = if fits && !is_apart { self.shown } else { 1 - self.shown };
+            self.drawn = if (fits || !self.keeps_shown) && !is_apart { self.shown } else { 1 - self.shown };
         }
         let picture = &mut self.pictures[self.drawn];
         if picture.as_ref().is_none_or(|picture| picture.size != size) {

@@ -117,7 +117,7 @@ impl SurfacesPass {
         self.bind_group = bind_group(device, &self.layout, (&self.frame, &self.tables), resident);
     }
 
-    /// Draws everything, with nothing in the way of light.
+    /// Draws everything in these rows, with nothing in the way of light; the first ones clear the targets all over.
     pub(super) fn encode(
         &mut self,
         queue: &Queue,
@@ -125,12 +125,15 @@ impl SurfacesPass {
         targets: &Targets,
         things: (&Resident, &Blended),
         (view, settings, gain): (&View, &Settings, f32),
+        rows: &Range<u32>,
     ) {
         self.write_frame(queue, things.0.first, (view, settings, gain), &Sample::FIRST);
         let (opaque, blended) = self.draws(things, view);
         let calls = split(opaque.into_iter().chain(blended), self.triangles_a_pass);
         let colors = [Some(&targets.radiance)];
-        self.run(encoder, things, (&calls, Stage::Unshadowed, None), (&colors, &targets.depth, [true; 2]), None);
+        let part = Some([0, rows.start, targets.size[0], rows.end - rows.start]);
+        let clears = [rows.start == 0; 2];
+        self.run(encoder, things, (&calls, Stage::Unshadowed, None), (&colors, &targets.depth, clears), part);
     }
 
     /// Draws one of each pixel's samples in these rows: depth first, in all rows with the first ones, so that what is hidden traces

@@ -7,6 +7,7 @@ use super::gizmo;
 use super::grab::Tool;
 use super::history::is_settled;
 use super::request::Request;
+use super::saving::Wish;
 use super::state::State;
 use crate::scene::CameraEdit;
 
@@ -36,8 +37,10 @@ pub enum Command {
     Aim,
     Undo,
     Redo,
-    Screenshot,
+    SavePicture,
+    SavePictureAs,
     SaveState,
+    CopyPicture,
     Panel,
     Fullscreen,
     Keys,
@@ -73,14 +76,19 @@ impl Command {
             Self::Undo if is_settled(ui) => state.undo(),
             Self::Redo if is_settled(ui) => state.redo(),
             Self::Undo | Self::Redo => {}
-            Self::Screenshot => return Some(Request::Screenshot),
+            Self::SavePicture => {
+                return Some(Request::SavePicture(Wish { settings: state.saving.last.clone(), name: None }));
+            }
+            Self::SavePictureAs => state.saving.open(),
+            Self::CopyPicture => return Some(Request::CopyCommand),
             Self::SaveState => return Some(Request::SaveState),
             Self::Fullscreen => return Some(Request::Fullscreen),
             Self::Panel => state.panel_hidden = !state.panel_hidden,
             Self::Keys => state.keys_shown = !state.keys_shown,
             Self::Close => {
                 state.keys_shown = false;
-                (state.sheet, state.sweep, state.chosen_light) = (None, None, None);
+                (state.sheet, state.sweep, state.saving.form) = (None, None, None);
+                state.chosen_light = None;
                 Popup::close_all(ui);
             }
         }

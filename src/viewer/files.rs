@@ -6,6 +6,7 @@ use egui::{Align2, FontId, Id, LayerId, Ui};
 
 use super::loading::Loading;
 use super::request::Request;
+use super::wishes::Pictured;
 use crate::scene::{Edits, Scene};
 
 /// Who reads files for the viewer, with whatever was asked for at its start.
@@ -15,6 +16,9 @@ pub trait Files {
 
     /// Reads the state of a scene that is shown; one line where it cannot be taken.
     fn state(&self, path: &Path, scene: &Scene) -> Result<Edits, String>;
+
+    /// A command for a shell that makes this picture; one line where there is none.
+    fn command(&self, pictured: &Pictured) -> Result<String, String>;
 }
 
 /// Whether a file holds a state rather than a scene.

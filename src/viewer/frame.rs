@@ -111,14 +111,15 @@ impl Frame {
     pub fn begin(&mut self, gpu: &Gpu) -> Result<Result<Canvas, Unseen>, ViewerError> {
         let texture = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
-            CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
+            CurrentSurfaceTexture::Outdated => {
                 self.surface.configure(&gpu.device, &self.configuration);
                 return Ok(Err(Unseen::Again));
             }
             CurrentSurfaceTexture::Timeout => return Ok(Err(Unseen::Again)),
             CurrentSurfaceTexture::Occluded => return Ok(Err(Unseen::Hidden)),
+            CurrentSurfaceTexture::Lost => return Err(ViewerError::Lost("the window's surface is gone".to_owned())),
             CurrentSurfaceTexture::Validation => {
-                return Err(ViewerError::Window("its surface is not valid".to_owned()));
+                return Err(ViewerError::Lost("the window's surface is not valid".to_owned()));
             }
         };
         let view = texture.texture.create_view(&Default::default());
@@ -149,14 +150,24 @@ impl Frame {
 
     /// A rectangle in points as pixels: at least one, none outside the surface.
     pub fn in_pixels(&self, place: egui::Rect) -> Rect {
-        let pixels = |points: f32, limit: u32| (points * self.pixels_per_point).round().clamp(0.0, limit as f32) as u32;
-        let (width, height) = (self.configuration.width, self.configuration.height);
-        let (x, y) = (pixels(place.min.x, width - 1), pixels(place.min.y, height - 1));
-        Rect {
-            x,
-            y,
-            width: pixels(place.max.x, width).saturating_sub(x).max(1),
-            height: pixels(place.max.y, height).saturating_sub(y).max(1),
-        }
+        pixels_within(place, self.pixels_per_point, [self.configuration.width, self.configuration.height])
+    }
+}
+
+/// Width and height in pixels of a rectangle in points.
+pub(super) fn pixel_size(place: egui::Rect, pixels_per_point: f32) -> [u32; 2] {
+    let Rect { width, height, .. } = pixels_within(place, pixels_per_point, [u32::MAX; 2]);
+    [width, height]
+}
+
+/// A rectangle in points as pixels: at least one, none outside of this size.
+fn pixels_within(place: egui::Rect, pixels_per_point: f32, [width, height]: [u32; 2]) -> Rect {
+    let pixels = |points: f32, limit: u32| (points * pixels_per_point).round().clamp(0.0, limit as f32) as u32;
+    let (x, y) = (pixels(place.min.x, width - 1), pixels(place.min.y, height - 1));
+    Rect {
+        x,
+        y,
+        width: pixels(place.max.x, width).saturating_sub(x).max(1),
+        height: pixels(place.max.y, height).saturating_sub(y).max(1),
     }
 }

@@ -3,9 +3,10 @@
 use egui::{Align2, Area, Id, Rect, Ui};
 
 use super::change::Change;
+use super::frame::pixel_size;
 use super::request::Request;
 use super::state::State;
-use super::{files, keys, navigate, panel, sheet_view};
+use super::{files, keys, navigate, panel, saving, sheet_view};
 
 /// The outcome of a pass over the user interface.
 pub struct Layout {
@@ -45,6 +46,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     for command in commands {
         request = command.run(ui, picture, state).or(request);
     }
+    request = saved(ui, picture, state).or(request);
     if state.keys_shown {
         state.keys_shown = keys::show(ui);
     }
@@ -60,6 +62,13 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
         change = change.max(Change::Shown);
     }
     Layout { picture, change, request }
+}
+
+/// The box for pictures that are to be saved, and how far one is.
+fn saved(ui: &Ui, picture: Rect, state: &mut State) -> Option<Request> {
+    let size = pixel_size(picture, ui.pixels_per_point());
+    let stop = state.saving.progress.as_ref().and_then(|progress| saving::show_bar(ui, picture, progress));
+    stop.or(saving::show_form(ui, &mut state.saving, size).map(Request::SavePicture))
 }
 
 /// What has changed since the last pass. Edits may be many: they are copied only where there is something.

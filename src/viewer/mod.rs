@@ -6,12 +6,14 @@ mod adding;
 mod aim;
 mod change;
 mod commands;
+mod easel;
 mod files;
 mod frame;
 mod frame_time;
 mod gizmo;
 mod grab;
 mod hands;
+mod health;
 mod history;
 mod keys;
 mod lamp;
@@ -19,6 +21,7 @@ mod lamps;
 mod layout;
 mod lens;
 mod loading;
+mod mirror;
 mod native;
 mod navigate;
 mod open;
@@ -30,6 +33,7 @@ mod pick;
 mod picture;
 mod request;
 mod resting;
+mod saving;
 mod screen;
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod server;
@@ -43,12 +47,14 @@ mod theme;
 mod widgets;
 mod window;
 mod window_size;
+mod wishes;
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
 pub use files::Files;
 pub use loading::Loading;
+pub use wishes::Pictured;
 
 use crate::renderer::{DeviceError, RenderError};
 use crate::table::SheenTable;
@@ -68,6 +74,9 @@ pub enum ViewerError {
     /// The scene could not be taken to the device or drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The device is lost, for this reason, and no other one has come in its place.
+    #[error("the graphics device was lost ({0}), and none came back: start again, or use `velour render`")]
+    Lost(String),
     /// There is no scene to show, for the reason that whoever loads it gives.
     #[error("{0}")]
     Scene(String),

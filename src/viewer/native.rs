@@ -3,21 +3,27 @@
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod display;
+mod keeping;
+mod losing;
 mod memory;
+mod places;
+mod quietly;
 
-use std::path::PathBuf;
 use std::sync::mpsc;
 use std::time::Duration;
 
-use crate::file::write_atomically;
-use crate::picture::DisplayImage;
 use crate::renderer::Gpu;
 
 use super::state::State;
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
+pub(super) use keeping::{Job, Keeper, Means};
+pub(super) use losing::lose_as_asked;
 pub(super) use memory::{forget, remember, remembered};
+pub(super) use places::{folder, free_name, place};
+use places::{numbered_place, write};
+pub(super) use quietly::quietly;
 
 /// A point in time.
 pub(super) use std::time::Instant;
@@ -111,11 +117,17 @@ impl<Order: Send + 'static, Report: Send + 'static> Worker<Order, Report> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gone;
 
-impl<Order, Report> Drop for Worker<Order, Report> {
-    /// Waits for what it is at: drivers do not like to be left in the middle of something.
-    fn drop(&mut self) {
+impl<Order, Report> Worker<Order, Report> {
+    /// Waits for what it is at: drivers do not like to be left in the middle of something. It takes no orders any more.
+    pub fn end(&mut self) {
         self.orders = None;
         let _ = self.thread.take().map(std::thread::JoinHandle::join);
+    }
+}
+
+impl<Order, Report> Drop for Worker<Order, Report> {
+    fn drop(&mut self) {
+        self.end();
     }
 }
 
@@ -125,46 +137,18 @@ pub(super) fn finish(gpu: &Gpu) {
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
 }
 
-/// What is written into a picture of what the state shows: of what, and how to have it again.
-pub(super) fn comment(state: &State) -> String {
-    format!(
-        "velour view of {} at {} EV, with this state:\n{}",
-        one_line(&state.name),
-        state.settings().exposure,
-        state.edits.to_text(&state.scene)
-    )
-}
-
-/// Saves a picture with its comment in the current folder under the first free name; says where, or why not.
-pub(super) fn save(picture: &DisplayImage, comment: &str) -> String {
-    let bytes = picture.to_png_with_comment(comment).map_err(|error| error.to_string());
-    bytes.and_then(|bytes| save_as("png", &bytes)).unwrap_or_else(|error| error)
-}
-
 /// Saves what the user has changed as a text in the current folder; says where, or why not.
 pub(super) fn save_state(state: &State) -> String {
     let text = format!("# Changes to {}, for --state.\n{}", one_line(&state.name), state.edits.to_text(&state.scene));
-    save_as("toml", text.as_bytes()).unwrap_or_else(|error| error)
+    match write(|| numbered_place(&folder(None), "toml"), text.as_bytes()) {
+        Ok(path) => format!("saved {}", path.display()),
+        Err(why) => format!("can't save the state: {why}"),
+    }
 }
 
 /// Control characters would end the comment that a name stands in.
 fn one_line(name: &str) -> String {
     name.chars().filter(|character| !character.is_control()).collect()
-}
-
-/// Writes a file in the current folder under the first free name; says where.
-fn save_as(extension: &str, bytes: &[u8]) -> Result<String, String> {
-    // Whoever opened the window from a desktop does not know which folder is the current one.
-    let in_full = |path: PathBuf| std::path::absolute(&path).unwrap_or(path);
-    let taken = || format!("velour-001.{extension} to velour-999.{extension} are taken");
-    let path = free_name(extension).map(in_full).ok_or_else(taken)?;
-    write_atomically(&path, bytes).map_err(|error| error.to_string())?;
-    Ok(format!("saved {}", path.display()))
-}
-
-/// The first of velour-001 to velour-999 with this extension that is not there.
-fn free_name(extension: &str) -> Option<PathBuf> {
-    (1..1000).map(|number| PathBuf::from(format!("velour-{number:03}.{extension}"))).find(|path| !path.exists())
 }
 
 /// Where there is but one kind of display server.

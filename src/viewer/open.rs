@@ -3,20 +3,23 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use egui::epaint::textures::TexturesDelta;
 use egui::{TextureId, ViewportId};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
 use super::ViewerError;
 use super::change::Change;
-use super::frame::Frame;
-use super::native::{self, Gone, Instant, Worker};
+use super::easel::Easel;
+use super::frame::pixel_size;
+use super::health::Health;
+use super::mirror::Mirror;
+use super::native::{self, Gone, Instant, Means, Worker};
 use super::order::{Left, Order, Report, Textures, Unseen, Work};
-use super::painter::Painter;
 use super::screen::Screen;
 use super::state::State;
 use super::{theme, window_size};
-use crate::renderer::{Gpu, RenderError, device};
+use crate::renderer::{Gpu, RenderError};
 use crate::scene::Edits;
 use crate::table::SheenTable;
 
@@ -38,10 +41,13 @@ const BUILDING: Duration = Duration::from_millis(50);
 /// A window with what belongs to it.
 pub(super) struct Open {
     pub window: Arc<Window>,
+    pub gpu: Gpu,
+    health: Health,
     pub egui: egui_winit::State,
     pub screen: Screen,
     /// Changes of egui's textures that the painter has not been told.
-    pub textures: Textures,
+    textures: Textures,
+    mirror: Mirror,
     /// When egui had its last pass.
     pub passed: Instant,
     /// When it gets its next; never while nothing happens.
@@ -49,6 +55,8 @@ pub(super) struct Open {
     /// What the title says that is being done.
     pub titled: Option<String>,
     painter: Worker<Order, Result<Report, ViewerError>>,
+    /// Whether the painter has ended, because its device is lost.
+    is_without_device: bool,
     /// Since when the painter has had an order.
     busy: Option<Instant>,
     /// Whether its next one has been announced.
@@ -61,8 +69,8 @@ pub(super) struct Open {
     /// When the frame time was told last.
     timed: Instant,
     is_hidden: bool,
-    /// The comment of a picture that is to be kept.
-    comment: Option<String>,
+    /// Whether the system has said that nothing of the window can be seen.
+    is_out_of_sight: bool,
     /// What has changed in the picture that the painter has not been told.
     untold: Change,
     /// Textures of the sheet's pictures that the painter has made.
@@ -78,32 +86,32 @@ pub(super) struct Open {
 }
 
 impl Open {
-    pub fn new(window: Arc<Window>, table: SheenTable, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
-        let (surface, gpu) = native::block_on(open_surface(&window))?;
+    pub fn new(window: Arc<Window>, table: Arc<SheenTable>, wake: EventLoopProxy<()>) -> Result<Self, ViewerError> {
         let context = egui::Context::default();
         theme::apply(&context);
+        let Easel { gpu, health, painter } = Easel::new(&window, &context, table, wake)?;
         let egui = egui_winit::State::new(
-            context.clone(),
+            context,
             ViewportId::ROOT,
             &window,
             Some(window.scale_factor() as f32),
             window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
-        let frame = Frame::new(surface, &gpu, window.inner_size().into())?;
-        let mut painter = Painter::new(gpu, frame, context, table);
-        // Where the loop has ended nobody is left to be woken.
-        let painter = Worker::start(move |order| painter.obey(order), move || _ = wake.send_event(()));
         let now = native::now();
         let open = Self {
             window,
+            gpu,
+            health,
             egui,
             screen: Screen::new(),
             textures: Textures::default(),
+            mirror: Mirror::default(),
             passed: now,
             due: Some(now),
             titled: None,
             painter,
+            is_without_device: false,
             busy: None,
             announced: false,
             left: Left::Nothing,
@@ -111,7 +119,7 @@ impl Open {
             heard: now,
             timed: now,
             is_hidden: false,
-            comment: None,
+            is_out_of_sight: false,
             untold: Change::None,
             tiles: Vec::new(),
             asked: None,
@@ -121,6 +129,46 @@ impl Open {
         };
         open.fit();
         Ok(open)
+    }
+
+    /// Lets go of a device that is lost: nothing is drawn until there is another one.
+    pub fn close_device(&mut self) {
+        self.painter.end();
+        self.is_without_device = true;
+        (self.busy, self.announced) = (None, false);
+        (self.is_eager, self.left) = (false, Left::Nothing);
+    }
+
+    /// Goes on with another device: all is drawn anew.
+    pub fn reopen_device(&mut self, table: Arc<SheenTable>, wake: EventLoopProxy<()>) -> Result<(), ViewerError> {
+        let Easel { gpu, health, painter } = Easel::new(&self.window, self.egui.egui_ctx(), table, wake)?;
+        (self.gpu, self.health, self.painter) = (gpu, health, painter);
+        self.is_without_device = false;
+        // What the painter before has made is gone with it.
+        self.tiles.clear();
+        self.asked = None;
+        self.textures = Textures(self.mirror.all());
+        self.screen.begin();
+        self.expose();
+        (self.untold, self.is_outdated, self.verdict) = (Change::Lights, false, None);
+        self.wake_in(Duration::ZERO);
+        Ok(())
+    }
+
+    /// What draws pictures that are saved.
+    pub fn means(&self, table: &Arc<SheenTable>) -> Means {
+        Means { gpu: self.gpu.clone(), table: table.clone(), health: self.health.clone() }
+    }
+
+    /// Whether a device is lost that was used until now, and why.
+    pub fn loss(&self) -> Option<String> {
+        self.health.ailment().filter(|_| !self.is_without_device)
+    }
+
+    /// Keeps what a pass has made of egui's textures.
+    pub fn take_textures(&mut self, textures: TexturesDelta) {
+        self.mirror.follow(&textures);
+        self.textures.0.append(textures);
     }
 
     /// Another scene is shown from now on.
@@ -165,6 +213,11 @@ impl Open {
         self.wake(self.passed + pace);
     }
 
+    /// Width and height in pixels of the picture as it is shown.
+    pub fn shown_size(&self) -> [u32; 2] {
+        pixel_size(self.screen.picture, self.screen.pixels_per_point)
+    }
+
     pub fn is_due(&self) -> bool {
         self.due.is_some_and(|due| due <= native::now())
     }
@@ -174,16 +227,16 @@ impl Open {
         self.busy.map(|since| since.elapsed())
     }
 
-    /// Has the picture kept, with this comment, once the painter is free.
-    pub fn save_picture(&mut self, comment: String) {
-        self.comment = Some(comment);
-    }
-
     /// When something is to be looked at again: `slow` after an order was given, it is told of.
     pub fn next(&self, slow: Duration, state: Option<&State>) -> Option<Instant> {
         let told = self.busy.filter(|_| self.titled.is_none()).map(|since| since + slow);
         let is_covered = state.is_some_and(|state| state.sheet.is_some());
-        let waits = self.busy.is_some() || self.is_hidden || self.is_minimised() || is_covered;
+        let waits = self.busy.is_some()
+            || self.is_without_device
+            || self.is_hidden
+            || self.is_out_of_sight
+            || self.is_minimised()
+            || is_covered;
         let rested = if waits { None } else { self.rests_at() };
         [self.due, told, rested].into_iter().flatten().min()
     }
@@ -204,11 +257,6 @@ impl Open {
     /// Takes in what the painter has told, if it has; whether there is something new to show of it.
     pub fn hear(&mut self, state: &mut State) -> Result<bool, ViewerError> {
         let Some(report) = self.report()? else { return Ok(false) };
-        if let Some(saved) = report.saved {
-            let comment = self.comment.take().unwrap_or_default();
-            state.say(saved.map_or_else(|error| error, |picture| native::save(&picture, &comment)));
-            return Ok(true);
-        }
         if std::mem::take(&mut self.is_outdated) {
             self.tiles.extend(report.tile.map(|(_, tile)| tile.texture));
             return Ok(true);
@@ -250,6 +298,9 @@ impl Open {
     }
 
     fn report(&mut self) -> Result<Option<Report>, ViewerError> {
+        if self.is_without_device {
+            return Ok(None);
+        }
         let gone = |Gone| ViewerError::Window("its painter has failed".to_owned());
         let Some(report) = self.painter.report().map_err(gone)?.transpose()? else { return Ok(None) };
         (self.busy, self.heard) = (None, native::now());
@@ -268,7 +319,7 @@ impl Open {
     /// Gives the painter its next order, if it is free and there is something to do.
     pub fn give(&mut self, state: Option<&State>) {
         // Minimised: what has changed is drawn when the window comes back.
-        if self.busy.is_some() || self.is_minimised() {
+        if self.busy.is_some() || self.is_minimised() || self.is_without_device {
             return;
         }
         let Some(work) = self.work(state) else { return };
@@ -300,21 +351,25 @@ impl Open {
         self.painter.give(order);
     }
 
+    /// Nobody can see the window.
+    pub fn hide(&mut self) {
+        self.is_out_of_sight = true;
+    }
+
     /// The system has something of the window shown again.
     pub fn expose(&mut self) {
-        self.is_hidden = false;
+        (self.is_hidden, self.is_out_of_sight) = (false, false);
         self.screen.lose();
     }
 
     /// What the painter is to do next; nothing while nobody can see the window.
     fn work(&self, state: Option<&State>) -> Option<Work> {
-        if self.is_hidden {
+        if self.is_hidden || self.is_out_of_sight {
             return None;
         }
         let rests = self.rests_at().is_some_and(|at| at <= native::now());
         let sheet = state.and_then(|state| state.sheet.as_ref());
         match sheet {
-            _ if state.is_some() && self.comment.is_some() => Some(Work::Save),
             // Over the picture, which waits.
             Some(_) if self.screen.is_stale() => Some(Work::Present),
             Some(sheet) => sheet.missing().map(|index| Work::Tile(index, sheet.size)),
@@ -332,21 +387,4 @@ impl Open {
         self.tiles = used;
         unused
     }
-}
-
-/// A surface of the window and a device that presents to it.
-async fn open_surface(window: &Arc<Window>) -> Result<(wgpu::Surface<'static>, Gpu), ViewerError> {
-    let mut failure = ViewerError::Device(device::DeviceError::NoAdapter);
-    for backends in device::BACKENDS {
-        let instance = device::instance_for_window(backends, Box::new(Arc::clone(window)));
-        let opened = match instance.create_surface(Arc::clone(window)) {
-            Ok(surface) => device::open(&instance, None, Some(&surface)).await.map(|gpu| (surface, gpu)),
-            Err(_) => continue,
-        };
-        match opened {
-            Ok(opened) => return Ok(opened),
-            Err(error) => failure = ViewerError::Device(error),
-        }
-    }
-    Err(failure)
 }

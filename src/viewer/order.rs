@@ -9,7 +9,6 @@ use egui::epaint::textures::TexturesDelta;
 
 use super::change::Change;
 use super::sheet::Tile;
-use crate::picture::DisplayImage;
 use crate::renderer::RenderError;
 use crate::scene::{Camera, Drawn, Edits, Scene, Settings};
 
@@ -52,8 +51,6 @@ pub enum Work {
     Frame,
     /// The window with its picture as it is.
     Present,
-    /// The picture as it is shown, to be kept.
-    Save,
     /// One of the sheet's pictures: its index, and its size in pixels.
     Tile(usize, [u32; 2]),
 }
@@ -102,8 +99,6 @@ pub struct Report {
     pub advice: Option<String>,
     /// How long it took to draw what moves.
     pub frame_time: Option<Duration>,
-    /// The picture that was to be kept.
-    pub saved: Option<Result<DisplayImage, String>>,
     /// The sheet's picture that was asked for.
     pub tile: Option<(usize, Tile)>,
 }

@@ -1,30 +1,28 @@
 //! What draws the window, on a thread of its own, so that the window answers however long a frame takes.
 
+use std::sync::Arc;
+
 use super::ViewerError;
 use super::frame::Frame;
 use super::native;
 use super::order::{Order, Report, Shot, Work};
 use super::picture::Picture;
 use super::sheet::Tile;
-use crate::picture::DisplayImage;
-use crate::renderer::{Gpu, Offscreen, RenderError};
+use crate::renderer::Gpu;
 use crate::table::SheenTable;
-
-/// Samples per pixel of pictures that are kept.
-const SAMPLES: u32 = 4;
 
 /// The device, and what is on it.
 pub(super) struct Painter {
     gpu: Gpu,
     frame: Frame,
     context: egui::Context,
-    table: SheenTable,
+    table: Arc<SheenTable>,
     picture: Option<Picture>,
 }
 
 impl Painter {
     /// `context` is that of the passes whose shapes orders bring.
-    pub fn new(gpu: Gpu, frame: Frame, context: egui::Context, table: SheenTable) -> Self {
+    pub fn new(gpu: Gpu, frame: Frame, context: egui::Context, table: Arc<SheenTable>) -> Self {
         Self { gpu, frame, context, table, picture: None }
     }
 
@@ -51,7 +49,6 @@ impl Painter {
         match work {
             Work::Frame => self.draw(&shot, place, (stale, announced), &mut report)?,
             Work::Present => self.present(Some(&shot), place, &mut report)?,
-            Work::Save => report.saved = Some(self.save(&shot, place)),
             Work::Tile(index, size) => self.tile(&shot, index, size, &mut report)?,
         }
         if let Some(picture) = &self.picture {
@@ -113,16 +110,6 @@ impl Painter {
         // Never more than one frame ahead, so that a slow driver still answers to the latest drag.
         native::finish(&self.gpu);
         Ok(())
-    }
-
-    /// The picture as it is shown, without the panel.
-    fn save(&mut self, shot: &Shot, place: egui::Rect) -> Result<DisplayImage, String> {
-        let place = self.frame.in_pixels(place);
-        let failure = |error: RenderError| error.to_string();
-        let renderer = Offscreen::nearest_for_display(&self.gpu, SAMPLES, &self.table, &shot.drawn());
-        let mut renderer = renderer.map_err(failure)?;
-        let picture = renderer.display(&self.gpu, &shot.camera, [place.width, place.height], &shot.settings);
-        native::block_on_device(&self.gpu, picture).map_err(failure)
     }
 
     /// One picture of the sheet.

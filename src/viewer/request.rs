@@ -2,11 +2,17 @@
 
 use std::path::PathBuf;
 
+use super::saving::Wish;
+
 /// A wish that the window fulfils.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
-    /// The picture as it is shown, in a file.
-    Screenshot,
+    /// A picture of what is shown, in a file.
+    SavePicture(Wish),
+    /// No picture of those that are being saved.
+    StopSaving,
+    /// The command that makes the picture, on the clipboard.
+    CopyCommand,
     /// The edits, in a file.
     SaveState,
     /// The window over all of the screen, or back as it was.

@@ -11,6 +11,7 @@ use super::history::{self, History, Step};
 use super::lamp::LightId;
 use super::order::Shot;
 use super::pick;
+use super::saving::Saving;
 use super::sheet::Sheet;
 use super::sweep::Sweep;
 use crate::picture::Exposure;
@@ -47,6 +48,8 @@ pub struct State {
     pub messages: Vec<String>,
     /// Alpha on its way to and fro: while there is one, all that it sets is one change.
     pub sweep: Option<Sweep>,
+    /// Pictures that are saved.
+    pub saving: Saving,
     /// The sheet of nine alphas, while it lies over the picture.
     pub sheet: Option<Sheet>,
     /// Whether the picture has the window to itself.
@@ -95,6 +98,7 @@ impl State {
             notices: scene.notices.clone(),
             messages: Vec::new(),
             sweep: None,
+            saving: Saving::default(),
             sheet: None,
             panel_hidden: false,
             keys_shown: false,
@@ -117,6 +121,7 @@ impl State {
         self.panel_hidden = before.panel_hidden;
         self.hands.is_narrow = before.hands.is_narrow;
         self.messages = std::mem::take(&mut before.messages);
+        self.saving = std::mem::take(&mut before.saving);
         // Nothing goes on below another scene.
         (before.sheet, before.sweep, before.outlined, before.loading) = (None, None, None, None);
     }
@@ -232,6 +237,11 @@ impl State {
     pub fn say(&mut self, what: String) {
         self.messages.retain(|said| *said != what);
         self.messages.push(what);
+    }
+
+    /// Pictures that were drawn beside the one that is shown are gone.
+    pub fn lose_pictures(&mut self) {
+        self.sheet.iter_mut().for_each(|sheet| sheet.pictures = Default::default());
     }
 
     /// Moves alpha on where it is being swept, to where it is at a time in seconds; whether it still is. It stops where the

@@ -15,19 +15,23 @@ use winit::window::{Fullscreen, Window, WindowId};
 use super::ViewerError;
 use super::change::Change;
 use super::files::{Files, is_state};
+use super::health::Losses;
 use super::layout::{self, Layout};
 use super::loading::{self, Loading};
-use super::native;
+use super::native::{self, Instant, Keeper};
 use super::open::{Open, REST};
 use super::request::Request;
 use super::state::State;
-use super::{file_name, window_size};
+use super::{file_name, window_size, wishes};
 use crate::renderer::RenderError;
 use crate::table::SheenTable;
 
 /// How long a scene may take to load before a window is opened that says so: one that is there by then, or that cannot be
 /// loaded, is not announced.
 const UNSAID: Duration = Duration::from_millis(300);
+
+/// How often it is shown how far a picture is that is being saved.
+const STEP: Duration = Duration::from_millis(250);
 
 /// An order that takes longer is told of in the window's title.
 const SLOW: Duration = Duration::from_millis(333);
@@ -41,18 +45,38 @@ pub(super) struct App {
     state: Option<State>,
     /// That of the scene before, until the painter has taken the one that is shown.
     before: Option<State>,
-    table: Option<SheenTable>,
+    table: Arc<SheenTable>,
+    /// Saves pictures.
+    keeper: Keeper,
     wake: EventLoopProxy<()>,
     /// There from the first `resumed` on.
     open: Option<Open>,
+    /// When devices were lost, why the last one was, and when another one is tried.
+    losses: Losses,
+    lost: Option<String>,
+    reopen_at: Option<Instant>,
     /// Why the loop was left, if that was not the user's doing.
     pub failure: Option<ViewerError>,
 }
 
 impl App {
     pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
-        let (loading, table) = (Some(loading), Some(table));
-        Self { files, loading, state: None, before: None, table, wake, open: None, failure: None }
+        let (loading, table, keeper) = (Some(loading), Arc::new(table), Keeper::default());
+        let (losses, lost, reopen_at) = (Losses::default(), None, None);
+        Self {
+            files,
+            loading,
+            state: None,
+            before: None,
+            table,
+            keeper,
+            wake,
+            open: None,
+            losses,
+            lost,
+            reopen_at,
+            failure: None,
+        }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
@@ -66,8 +90,7 @@ impl App {
         let attributes =
             Window::default_attributes().with_title(self.title(None)).with_inner_size(size).with_min_inner_size(least);
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
-        let table = self.table.take().unwrap_or_else(SheenTable::embedded);
-        Open::new(Arc::new(window), table, self.wake.clone())
+        Open::new(Arc::new(window), self.table.clone(), self.wake.clone())
     }
 
     fn title(&self, doing: Option<&str>) -> String {
@@ -94,8 +117,9 @@ impl App {
 
     /// Shows a scene in place of the one that is shown, if there is one.
     fn show(&mut self, mut state: State) {
-        if let Some(before) = &mut self.state {
-            state.take_over(before);
+        match &mut self.state {
+            Some(before) => state.take_over(before),
+            None => state.saving.last = wishes::remembered(),
         }
         // What the painter has not taken yet is nothing to go back to.
         let replaced = self.state.replace(state);
@@ -136,10 +160,12 @@ impl App {
         let Some(open) = &mut self.open else { return false };
         let input = open.egui.take_egui_input(&open.window);
         let context = open.egui.egui_ctx().clone();
+        let (progress, longest) = (self.keeper.progress(), open.gpu.device.limits().max_texture_dimension_2d);
         let mut layout = Layout::default();
         let mut output = context.run_ui(input, |ui| {
             let last = match (&mut self.state, &self.loading) {
                 (Some(state), loading) => {
+                    (state.saving.progress, state.saving.longest) = (progress.clone(), Some(longest));
                     state.loading = loading.as_ref().map(|loading| format!("{}: {}", loading.what(), loading.said()));
                     layout::show(ui, state)
                 }
@@ -156,13 +182,16 @@ impl App {
         open.egui.handle_platform_output(&open.window, std::mem::take(&mut output.platform_output));
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |root| root.repaint_delay);
         let textures = open.screen.take(&layout, output);
-        open.textures.0.append(textures);
+        open.take_textures(textures);
         // What moves by itself goes on as fast as it is drawn.
         open.is_eager = delay.is_zero() && open.busy_for().is_some();
         let delay = if open.screen.is_stale() && !open.is_eager { delay } else { delay.max(REST) };
         (open.passed, open.due) = (native::now(), native::after(delay));
         if self.loading.is_some() {
             open.wake_in(REST);
+        }
+        if progress.is_some() {
+            open.wake_in(STEP);
         }
         layout.request.into_iter().for_each(|request| self.fulfil(request));
         layout.change > Change::None
@@ -171,7 +200,15 @@ impl App {
     fn fulfil(&mut self, request: Request) {
         match (request, &mut self.state, &mut self.open) {
             (Request::Open(path), _, _) => self.bring(&path),
-            (Request::Screenshot, Some(state), Some(open)) => open.save_picture(native::comment(state)),
+            (Request::SavePicture(wish), Some(state), Some(open)) => {
+                let means = open.means(&self.table);
+                wishes::save(&mut self.keeper, means, open, state, wish);
+            }
+            (Request::StopSaving, _, _) => self.keeper.stop(),
+            (Request::CopyCommand, Some(state), Some(open)) => {
+                let said = wishes::copy(&*self.files, open, state);
+                state.say(said);
+            }
             (Request::SaveState, Some(state), _) => {
                 let said = native::save_state(state);
                 state.say(said);
@@ -184,8 +221,12 @@ impl App {
 
     /// What is due by now: the scene, what the painter has to tell, a pass, its next order.
     fn follow(&mut self) -> Result<(), ViewerError> {
-        if self.open.is_none() {
-            return Ok(());
+        let Some(open) = &self.open else { return Ok(()) };
+        if let Some(why) = open.loss() {
+            return Err(ViewerError::Lost(why));
+        }
+        if self.reopen_at.is_some_and(|at| at <= native::now()) {
+            self.reopen()?;
         }
         let was_loading = self.loading.is_some();
         self.receive_scene(Duration::ZERO)?;
@@ -201,6 +242,7 @@ impl App {
             None => {}
         }
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
+        let told = self.hear_keeper() || told;
         let is_due = is_loaded || told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
         if is_due && self.pass() {
             // What stands above the control that was touched has been laid out with the value before.
@@ -211,6 +253,15 @@ impl App {
         }
         self.tell();
         Ok(())
+    }
+
+    /// Says what became of a picture that was to be saved; whether there is something to say.
+    fn hear_keeper(&mut self) -> bool {
+        let Some(open) = &self.open else { return false };
+        let heard = self.keeper.heard(|| open.means(&self.table));
+        let is_heard = heard.is_some();
+        self.state.iter_mut().zip(heard).for_each(|(state, said)| state.say(said));
+        is_heard
     }
 
     /// Says in the title what takes long.
@@ -228,10 +279,38 @@ impl App {
 
     /// Ends the program where something has failed.
     fn heed(&mut self, event_loop: &ActiveEventLoop, done: Result<(), ViewerError>) {
+        let done = match done {
+            Err(ViewerError::Lost(why)) => self.lose_device(why),
+            done => done,
+        };
         if let Err(failure) = done {
             self.failure = Some(failure);
             self.close(event_loop);
         }
+    }
+
+    /// The device is lost: another one is to be tried, unless that was to no avail.
+    fn lose_device(&mut self, why: String) -> Result<(), ViewerError> {
+        let delay = self.losses.again(native::now());
+        let (Some(open), Some(delay)) = (&mut self.open, delay) else { return Err(ViewerError::Lost(why)) };
+        open.close_device();
+        self.reopen_at = native::after(delay);
+        self.lost = Some(why);
+        Ok(())
+    }
+
+    /// Goes on with another device; the state stays as it is.
+    fn reopen(&mut self) -> Result<(), ViewerError> {
+        self.reopen_at = None;
+        let Some(open) = &mut self.open else { return Ok(()) };
+        // Whatever kept it from opening may pass, as what took the last one has.
+        open.reopen_device(self.table.clone(), self.wake.clone())
+            .map_err(|error| ViewerError::Lost(error.to_string()))?;
+        let Some(state) = &mut self.state else { return Ok(()) };
+        state.lose_pictures();
+        let why = self.lost.take().unwrap_or_default();
+        state.say(format!("the graphics device was lost ({why}): all is drawn on another one now"));
+        Ok(())
     }
 
     /// The window is gone at once, whatever the painter is at.
@@ -274,6 +353,8 @@ impl ApplicationHandler for App {
             WindowEvent::CloseRequested => self.close(event_loop),
             // The system may have lost what it had. egui answers by asking for a repaint: heeding that, the window would never rest.
             WindowEvent::RedrawRequested => open.expose(),
+            // Nothing is drawn that nobody sees.
+            WindowEvent::Occluded(true) => open.hide(),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => {
                 open.fit();
                 open.expose();
@@ -293,6 +374,7 @@ impl ApplicationHandler for App {
         let done = self.follow();
         self.heed(event_loop, done);
         let due = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
+        let due = due.into_iter().chain(self.reopen_at).min();
         event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

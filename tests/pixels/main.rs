@@ -42,3 +42,4 @@ mod textured_lights;
 mod textures;
 mod truth;
 mod unlit;
+mod watched;

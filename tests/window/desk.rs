@@ -1,5 +1,6 @@
 //! A display of its own, the program on it, and hands: what a user sees and does, and what the process takes for it.
 
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -15,7 +16,9 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
+use super::clipboard;
 use super::dragging::Dragged;
+pub use super::saved::State;
 use super::shot::Shot;
 
 /// How long anything may take on a machine that has other things to do.
@@ -32,31 +35,6 @@ pub mod keys {
     pub const HOME: u32 = 0xff50;
     pub const SHIFT: u32 = 0xffe1;
     pub const CONTROL: u32 = 0xffe3;
-}
-
-/// What the program has saved of its state.
-pub struct State(pub String);
-
-impl State {
-    /// The text after a key.
-    pub fn get(&self, key: &str) -> Option<&str> {
-        self.0.lines().find_map(|line| line.strip_prefix(key)?.trim_start().strip_prefix('=')).map(str::trim)
-    }
-
-    /// The numbers after a key, one or in brackets.
-    pub fn numbers(&self, key: &str) -> Vec<f64> {
-        let list = self.get(key).unwrap_or_else(|| panic!("no {key} in\n{}", self.0));
-        list.trim_matches(['[', ']']).split(',').map(|number| number.trim().parse().unwrap()).collect()
-    }
-
-    pub fn number(&self, key: &str) -> f64 {
-        self.numbers(key)[0]
-    }
-
-    /// Whether the view is another than the file's.
-    pub fn has_view(&self) -> bool {
-        self.0.contains("[view]")
-    }
 }
 
 /// The display and the program; both end with it.
@@ -81,7 +59,17 @@ impl Drop for Desk {
 impl Desk {
     /// A display of this size, which the program's window fills, with these arguments.
     pub fn new(size: [u16; 2], arguments: &[&Path]) -> Self {
-        let mut desk = Self::without_window(size, arguments);
+        Self::shown(Self::without_window(size, arguments))
+    }
+
+    /// The same with these variables in the program's environment.
+    pub fn within(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
+        Self::shown(Self::started(size, arguments, variables))
+    }
+
+    /// Waits for the window, which fills the display from then on.
+    fn shown(mut desk: Self) -> Self {
+        let size = desk.size;
         desk.window = desk.until("a window", |desk| desk.find());
         let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
         let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
@@ -106,6 +94,11 @@ impl Desk {
 
     /// The same before there is a window.
     pub fn without_window(size: [u16; 2], arguments: &[&Path]) -> Self {
+        Self::started(size, arguments, &[])
+    }
+
+    /// The same, with these variables in the program's environment.
+    pub fn started(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
         // A window takes nine tenths of its monitor at most.
         let [width, height] = size.map(|side| side.div_ceil(9) * 10);
         let screen = format!("{width}x{height}x24");
@@ -127,6 +120,7 @@ impl Desk {
             .env("DISPLAY", &display)
             .env("XDG_RUNTIME_DIR", folder.path())
             .env("XDG_STATE_HOME", folder.path())
+            .envs(variables.iter().copied())
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .stderr(Stdio::piped())
@@ -354,6 +348,11 @@ impl Desk {
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
         let message = ClientMessageEvent::new(32, self.window, protocols, [delete, 0, 0, 0, 0]);
         self.connection.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap().check().unwrap();
+    }
+
+    /// The text on the clipboard, if there is one.
+    pub fn clipboard(&self) -> Option<String> {
+        clipboard::text(&self.connection, self.root)
     }
 
     /// Waits for the program's end.

@@ -3,14 +3,18 @@
 //! `scripts/setup window` installs the display, `cargo test --test window` runs these; `cargo test` alone does not.
 #![cfg(target_os = "linux")]
 
+mod clipboard;
 mod desk;
 mod dragging;
 mod feel;
 mod files;
 mod hands;
+mod lost;
 mod panel;
+mod pictures;
 mod places;
 mod plates;
+mod saved;
 mod shot;
 mod small;
 

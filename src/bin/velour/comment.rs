@@ -21,7 +21,8 @@ fn of(words: impl IntoIterator<Item = OsString>) -> String {
             words.next();
         } else if !REPORTS.contains(&word.as_str()) && !holds_place(&word) {
             command.push(' ');
-            command.push_str(&quoted(&word));
+            // On one line.
+            command.push_str(&quoted(&word.replace(char::is_control, "?")));
         }
     }
     command
@@ -36,11 +37,14 @@ fn holds_place(word: &str) -> bool {
     PLACES.iter().any(joined)
 }
 
-/// A word as a shell takes it, on one line.
-fn quoted(word: &str) -> String {
-    let word = word.replace(char::is_control, "?");
+/// A word as a shell takes it.
+pub fn quoted(word: &str) -> String {
     let is_plain = |character: char| character.is_alphanumeric() || "_-+=.,:/%@".contains(character);
-    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 #[cfg(test)]

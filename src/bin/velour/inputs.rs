@@ -4,6 +4,7 @@ use std::path::Path;
 
 use velour::file::check_writable;
 use velour::picture::Format;
+use velour::scene::assets::DRAPE;
 use velour::scene::{Camera, CameraEdit, Drawn, Edits, Kind, Scene, gltf, select};
 use velour::table::SheenTable;
 
@@ -30,8 +31,8 @@ impl Inputs {
         let format = Format::of(&arguments.output).map_err(Failure::input)?;
         check_writable(&arguments.output).map_err(Failure::input)?;
         let (scene, table) = timing.measure("load", || -> Result<_, Failure> {
-            let scene = gltf::load(&arguments.scene, &arguments.loading.options()).map_err(Failure::input)?;
-            Ok((scene, sheen_table(arguments.sheen_table.as_deref())?))
+            let scene = scene(arguments.scene.as_deref(), &arguments.loading.options(), &|_| ());
+            Ok((scene.map_err(Failure::input)?, sheen_table(arguments.sheen_table.as_deref())?))
         })?;
         check_apart(&arguments.output, &scene, &arguments.files())?;
         let state =
@@ -54,6 +55,12 @@ impl Inputs {
     pub fn warn(&self) {
         self.scene.notices.iter().for_each(complain);
     }
+}
+
+/// The scene in a file, or the default one; `stage` hears what is being done.
+pub fn scene(path: Option<&Path>, options: &gltf::Options, stage: &dyn Fn(&'static str)) -> Result<Scene, String> {
+    let loaded = path.map_or_else(|| DRAPE.load(), |path| gltf::load_in_stages(path, options, stage));
+    loaded.map_err(|error| error.to_string())
 }
 
 /// What the flags change.

@@ -20,4 +20,13 @@ impl Loading {
     pub fn options(&self) -> Options {
         Options { pose: self.pose, rig: self.rig }
     }
+
+    /// The flags that say so, where they say anything.
+    pub fn words(options: &Options) -> Vec<String> {
+        let Options { pose, rig } = options;
+        let default = Options::default();
+        let pose = (*pose != default.pose).then(|| format!("--pose={pose}"));
+        let rig = (*rig != default.rig).then(|| format!("--rig={rig}"));
+        pose.into_iter().chain(rig).collect()
+    }
 }

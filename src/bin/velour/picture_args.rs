@@ -9,12 +9,13 @@ use velour::scene::{Edits, Layering, Lobes, MaterialEdits, RoughnessMap, SheenMo
 
 use crate::assignment::{Assignment, assignment};
 use crate::loading::Loading;
+use crate::state::is_stdin;
 
 /// What to draw, of which scene, and where to.
 #[derive(Args)]
 pub struct PictureArgs {
-    /// glTF 2.0 scene, .glb or .gltf
-    pub scene: PathBuf,
+    /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]
+    pub scene: Option<PathBuf>,
     /// The picture: .png (exposure, tone curve, sRGB) or .exr (linear radiance, 32-bit float)
     #[arg(short, long, value_name = "OUT.{png,exr}")]
     pub output: PathBuf,
@@ -23,7 +24,7 @@ pub struct PictureArgs {
     pub size: [u32; 2],
     #[command(flatten)]
     pub loading: Loading,
-    /// What the viewer has saved: view, picture, materials, lights; flags win over it
+    /// What the viewer has saved: view, picture, materials, lights; flags win over it. - reads it from standard input
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,
     /// A camera of the scene, by name or by index [default: the first]
@@ -94,7 +95,7 @@ impl PictureArgs {
     /// The files beside the scene's that are read, each with what it is.
     pub fn files(&self) -> Vec<(&'static str, &Path)> {
         let table = self.sheen_table.as_deref().map(|path| ("the table that is read", path));
-        let state = self.state.as_deref().map(|path| ("the state that is read", path));
+        let state = self.state.as_deref().filter(|path| !is_stdin(path)).map(|path| ("the state that is read", path));
         table.into_iter().chain(state).collect()
     }
 

@@ -8,7 +8,9 @@ use velour::renderer::device::{self, Gpu};
 use velour::renderer::{Effort, Offscreen, RadianceFormat, RenderError, SAMPLES};
 use velour::scene::{Camera, Edits, Layering, Scene, Settings};
 
-use crate::comment::command;
+use crate::comment;
+#[cfg(feature = "window")]
+use crate::comment::quoted;
 use crate::console::{complain, say};
 use crate::exposed::{Exposed, Exposes};
 use crate::failure::Failure;
@@ -77,6 +79,23 @@ pub fn shortfall(radiance: RadianceFormat, samples: u32, format: Format) -> Opti
     (!short.is_empty()).then(|| format!("the adapter draws {}", short.join("; and ")))
 }
 
+/// A command for a shell that renders a picture of the viewer's, of the scene in a file or the default one: read with these flags, and
+/// changed by the state that follows it.
+#[cfg(feature = "window")]
+pub fn command(scene: Option<&str>, flags: &[String], pictured: &velour::viewer::Pictured) -> String {
+    let velour::viewer::Pictured { scene: loaded, edits, size: [width, height], samples, format } = pictured;
+    let output = match format {
+        Format::Png => "velour.png",
+        Format::Exr => "velour.exr",
+    };
+    let (size, samples) = (format!("--size={width}x{height}"), format!("--spp={samples}"));
+    let words = ["velour", "render"].into_iter().chain(scene).chain(["-o", output, &size, &samples]);
+    let words = words.chain(flags.iter().map(String::as_str)).chain(["--state", "-"]);
+    let words: Vec<String> = words.map(quoted).collect();
+    // No line of a state is this one: what is no key and no bracket is no TOML.
+    format!("{} <<'END'\n{}END\n", words.join(" "), edits.to_text(loaded))
+}
+
 /// Refuses what takes a path tracer.
 pub fn check_real_time(edits: &Edits) -> Result<(), Failure> {
     for edits in edits.materials.values().chain([&edits.every_material]) {
@@ -120,12 +139,12 @@ fn draw(gpu: &Gpu, arguments: &Render, inputs: &Inputs, timing: &mut Timing) -> 
         Format::Png => {
             let mut shows = Shows { gpu, renderer: &mut renderer, camera: &camera, size, settings, timing };
             let exposed = Exposed::new(&inputs.edits, &mut shows)?;
-            (timing.measure("encode", || exposed.picture.to_png_with_comment(&command())), Some(exposed))
+            (timing.measure("encode", || exposed.picture.to_png_with_comment(&comment::command())), Some(exposed))
         }
         Format::Exr => {
             let picture = timing.measure("frame", || gpu.block_on(renderer.linear(gpu, &camera, size, settings)));
             let picture = picture.map_err(failure)?;
-            (timing.measure("encode", || picture.to_exr_with_comment(&command())), None)
+            (timing.measure("encode", || picture.to_exr_with_comment(&comment::command())), None)
         }
     };
     let notice = renderer.notice().map(str::to_owned);

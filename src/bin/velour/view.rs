@@ -7,7 +7,7 @@ use velour::file::{check_writable, write_atomically};
 use velour::picture::Format;
 use velour::renderer::{Offscreen, device};
 use velour::scene::assets::DRAPE;
-use velour::scene::gltf::{self, Options};
+use velour::scene::gltf::Options;
 use velour::scene::{Drawn, Edits, Scene};
 use velour::table::SheenTable;
 use velour::viewer::{self, ViewerError};
@@ -20,14 +20,14 @@ use crate::loading::Loading;
 use crate::output::check_apart;
 use crate::render::Shows;
 use crate::timing::Timing;
-use crate::{render, state, without_device};
+use crate::{inputs, render, state, without_device};
 
 /// The flags of `velour view`.
 #[derive(Args)]
 pub struct View {
     /// glTF 2.0 scene, .glb or .gltf [default: a velvet drape]
     pub scene: Option<PathBuf>,
-    /// What the viewer has saved: view, picture, materials, lights
+    /// What the viewer has saved: view, picture, materials, lights; - reads it from standard input
     #[arg(long, value_name = "FILE")]
     pub state: Option<PathBuf>,
     #[command(flatten)]
@@ -58,7 +58,7 @@ pub fn run_or_render(path: Option<&Path>, options: &Options) -> Result<(), Failu
     match viewer::run(event_loop, loading, Box::new(Files(options.clone())), SheenTable::embedded()) {
         // The viewer has kept the scene.
         Err(why @ ViewerError::Device(_)) => {
-            render_instead(&why, path, &load(path, options, &|_| ()).map_err(Failure::input)?)
+            render_instead(&why, path, &inputs::scene(path, options, &|_| ()).map_err(Failure::input)?)
         }
         shown => shown.map_err(failure),
     }
@@ -82,6 +82,14 @@ impl viewer::Files for Files {
     fn state(&self, path: &Path, scene: &Scene) -> Result<Edits, String> {
         read_state(path, scene).map_err(|failure| failure.message)
     }
+
+    fn command(&self, pictured: &viewer::Pictured) -> Result<String, String> {
+        let scene = pictured.scene.files.first().map(|path| {
+            let path = std::path::absolute(path).map_err(|error| error.to_string())?;
+            path.into_os_string().into_string().map_err(|path| format!("{} is no text", path.display()))
+        });
+        Ok(render::command(scene.transpose()?.as_deref(), &Loading::words(&self.0), pictured))
+    }
 }
 
 /// The edits in a state's file.
@@ -93,7 +101,7 @@ fn read_state(path: &Path, scene: &Scene) -> Result<Edits, Failure> {
 /// Loads a scene, and the edits in a state's file, while the window opens.
 fn load_aside(path: Option<PathBuf>, options: Options, state: Option<PathBuf>) -> viewer::Loading {
     viewer::Loading::start(&name(path.as_deref()), move |stage| {
-        let scene = load(path.as_deref(), &options, stage)?;
+        let scene = inputs::scene(path.as_deref(), &options, stage)?;
         let edits = state.map_or_else(|| Ok(Edits::default()), |path| read_state(&path, &scene));
         let edits = edits.map_err(|failure| failure.message)?;
         scene.notices.iter().for_each(complain);
@@ -114,12 +122,6 @@ fn render_instead(why: &ViewerError, path: Option<&Path>, scene: &Scene) -> Resu
     let what = path.map_or("the default scene".to_owned(), |path| path.display().to_string());
     say(format!("{why}: {what} is rendered to {}", output.display()));
     Ok(())
-}
-
-/// The scene in a file, or the default one.
-fn load(path: Option<&Path>, options: &Options, stage: &dyn Fn(&'static str)) -> Result<Scene, String> {
-    let loaded = path.map_or_else(|| DRAPE.load(), |path| gltf::load_in_stages(path, options, stage));
-    loaded.map_err(|error| error.to_string())
 }
 
 /// What `velour render` makes of the scene when no flag is given.

@@ -40,14 +40,20 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
         }
     });
     ui.horizontal(|ui| {
-        let about = "Saves the picture as it is shown, without the panel, as a .png in the current folder.";
-        if button(ui, about, Button::new("Save picture")) {
-            request = Some(Request::Screenshot);
+        let about = "Saves the picture, without the panel, in any size (Ctrl-Shift-S). P saves it at once, as the last one was saved: at \
+                     first as it is shown, as a .png in the current folder.";
+        if button(ui, about, Button::new("Save picture...")) {
+            state.saving.open();
         }
         let about = "Saves what is changed here as a small text in the current folder. velour view, render and reference take \
                      it with --state.";
         if button(ui, about, Button::new("Save state")) {
             request = Some(Request::SaveState);
+        }
+        let about = "Copies a command for a shell that makes the picture which P saves: velour render with all that is changed here \
+                     (Ctrl-Shift-C).";
+        if button(ui, about, Button::new("Copy command")) {
+            request = Some(Request::CopyCommand);
         }
     });
     ui.add_space(2.0);

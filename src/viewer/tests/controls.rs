@@ -25,7 +25,7 @@ fn has_value(name: &str) -> bool {
 }
 
 /// Controls of the panel that are in sight, where they are, and whether they can be used.
-fn controls(window: &Window) -> Vec<(String, Rect, bool)> {
+pub fn controls(window: &Window) -> Vec<(String, Rect, bool)> {
     let touched = window.nodes.iter().filter(|node| TOUCHED.contains(&node.role()));
     let all = touched.filter_map(|node| {
         let name = format!("{:?} {:?} {:?}", node.role(), node.label(), node.value());

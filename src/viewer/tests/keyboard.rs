@@ -5,13 +5,14 @@ use super::super::grab::Tool;
 use super::super::keys::{Input, ROWS};
 use super::super::lamp::LightId;
 use super::super::panel;
+use super::super::saving::{Settings, Wish};
 use super::*;
 
 /// What can be told of a window from outside.
 #[derive(Debug, PartialEq)]
 struct Snapshot {
     edits: Edits,
-    flags: [bool; 2],
+    flags: [bool; 3],
     request: Option<Request>,
     /// What is done with the light in the hand.
     tool: Option<Tool>,
@@ -29,8 +30,9 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.state.chosen_light = Some(LightId::Area(0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, hands, .. } = window.state;
-    Snapshot { edits, flags: [panel_hidden, keys_shown], request, tool: hands.grab.map(|grab| grab.tool) }
+    let State { edits, panel_hidden, keys_shown, saving, hands, .. } = window.state;
+    let flags = [panel_hidden, keys_shown, saving.form.is_some()];
+    Snapshot { edits, flags, request, tool: hands.grab.map(|grab| grab.tool) }
 }
 
 #[test]
@@ -50,11 +52,15 @@ fn each_key_has_its_effect() {
         let is_right = match row.command {
             Command::Undo => exposure(&found.edits).is_none() && found.edits.camera == nothing.edits.camera,
             Command::Redo => exposure(&found.edits) == Some(3.0.into()) && found.edits.camera == nothing.edits.camera,
-            Command::Screenshot => found.request == Some(Request::Screenshot),
+            Command::SavePicture => {
+                found.request == Some(Request::SavePicture(Wish { settings: Settings::default(), name: None }))
+            }
+            Command::SavePictureAs => found.flags == [false, false, true] && found.request.is_none(),
+            Command::CopyPicture => found.request == Some(Request::CopyCommand),
             Command::SaveState => found.request == Some(Request::SaveState),
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
-            Command::Panel => found.flags == [true, false],
-            Command::Keys => found.flags == [false, true],
+            Command::Panel => found.flags == [true, false, false],
+            Command::Keys => found.flags == [false, true, false],
             Command::Grab(tool) => found.tool == Some(tool) && found.edits.lights.is_empty(),
             Command::DuplicateLight => found.tool == Some(Tool::Move) && found.edits.added_lights.len() == 1,
             Command::DeleteLight => found.edits.lights[&0].removed == Some(true),
@@ -103,6 +109,7 @@ fn no_key_fires_while_a_text_is_typed() {
         assert!(window.context.text_edit_focused(), "{row:?}");
         assert_eq!(window.state.edits.camera, before.camera, "{row:?}");
         assert!(!window.state.panel_hidden && !window.state.keys_shown, "{row:?}");
+        assert!(window.state.saving.form.is_none(), "{row:?}");
     }
     // In the picture keys are meant for the picture again.
     window.modifiers = Modifiers::NONE;

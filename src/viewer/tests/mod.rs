@@ -9,6 +9,7 @@ mod keyboard;
 mod lights;
 mod panel;
 mod picking_colors;
+mod saving;
 mod sections;
 mod undoing;
 

@@ -177,7 +177,7 @@ fn a_drag_of_a_position_is_in_the_scenes_proportion() {
 #[test]
 fn requests_reach_the_window() {
     let mut window = Window::new(scene(1.0));
-    for (button, request) in [("Save picture", Request::Screenshot), ("Save state", Request::SaveState)] {
+    for (button, request) in [("Copy command", Request::CopyCommand), ("Save state", Request::SaveState)] {
         let at = window.place(Role::Button, button).center();
         let press = |pressed| Event::PointerButton {
             pos: at,

@@ -270,7 +270,7 @@ fn parts_fold_and_stay_folded() {
 fn a_small_window_reaches_everything() {
     let size = vec2(480.0, 320.0);
     let mut window = Window::of_size(scene(1.0), size);
-    let names = ["Save picture", "Save state", "Undo", "Redo", "Reset", "?"];
+    let names = ["Save picture...", "Save state", "Undo", "Redo", "Reset", "?"];
     window.press(Key::H);
     assert!(window.layout.picture.width() > 150.0);
     let wheel = Event::MouseWheel {

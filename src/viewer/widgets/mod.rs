@@ -12,7 +12,7 @@ use egui::{Align, CollapsingHeader, ComboBox, Label, Layout, RichText, Ui, vec2}
 pub use color::color_rows;
 pub use control::{About, Touch, button, control, refused};
 pub use glow::Glow;
-pub use number::{number_box, share_row, slider, slider_row, written};
+pub use number::{count_box, number_box, share_row, slider, slider_row, written};
 
 /// The width of the column of names, in points.
 pub const LABEL: f32 = 92.0;

@@ -40,6 +40,16 @@ pub fn number_box<'a>(
     })
 }
 
+/// A box with a whole number.
+pub fn count_box<'a>(ui: &mut Ui, about: impl Into<About<'a>>, value: u32, range: RangeInclusive<u32>) -> Touch<u32> {
+    let parse = |text: &str| match typed(text, value.into()) {
+        Typed::Unchanged => Ok(None),
+        Typed::Number(number) => Ok(Some(number.round())),
+        Typed::Nonsense => Err(format!("\"{}\" is no number: {value} stays", text.trim())),
+    };
+    typed_box(ui, about.into(), value, parse, |number| number.range(range).min_size(vec2(BOX, 0.0)))
+}
+
 /// A box of a number that is typed in any form, and taken once the box is left by any key but Esc. `parse` makes a number
 /// of its text, or none where that is as it was; what it refuses is said.
 pub fn typed_box<T: Numeric>(
