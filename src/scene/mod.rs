@@ -46,7 +46,9 @@ pub use bounds::{Bounds, FARTHEST};
 pub use camera::{Camera, Projection};
 pub use cutout::Cutout;
 pub use drawn::Drawn;
-pub use edits::{CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select};
+pub use edits::{
+    CameraEdit, Carrier, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select,
+};
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
 pub use material::{AlphaMode, Material, TextureSlot};

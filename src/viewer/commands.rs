@@ -4,6 +4,7 @@ use egui::{Popup, Rect, Ui};
 use glam::Vec2;
 
 use super::history::is_settled;
+use super::opening::Opening;
 use super::request::Request;
 use super::state::State;
 use crate::scene::CameraEdit;
@@ -28,6 +29,8 @@ pub enum Command {
     Home,
     Undo,
     Redo,
+    Open,
+    Reload,
     Screenshot,
     SaveState,
     Panel,
@@ -57,13 +60,15 @@ impl Command {
             Self::Undo if is_settled(ui) => state.undo(),
             Self::Redo if is_settled(ui) => state.redo(),
             Self::Undo | Self::Redo => {}
+            Self::Open => Opening::toggle(&mut state.opening),
+            Self::Reload => return Some(Request::Reload),
             Self::Screenshot => return Some(Request::Screenshot),
             Self::SaveState => return Some(Request::SaveState),
             Self::Fullscreen => return Some(Request::Fullscreen),
             Self::Panel => state.panel_hidden = !state.panel_hidden,
             Self::Keys => state.keys_shown = !state.keys_shown,
             Self::Close => {
-                state.keys_shown = false;
+                (state.keys_shown, state.opening) = (false, None);
                 (state.sheet, state.sweep) = (None, None);
                 Popup::close_all(ui);
             }

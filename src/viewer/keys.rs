@@ -77,6 +77,8 @@ pub const ROWS: &[Row] = &[
     row(Input::Press(Modifiers::COMMAND, Key::Z), Command::Undo, "undo; the view stays"),
     row(Input::Press(COMMAND_SHIFT, Key::Z), Command::Redo, "redo"),
     row(Input::Press(Modifiers::COMMAND, Key::Y), Command::Redo, "redo"),
+    row(Input::Press(Modifiers::COMMAND, Key::O), Command::Open, "open a scene"),
+    row(Input::Press(Modifiers::COMMAND, Key::R), Command::Reload, "load the scene's file again"),
     row(Input::Press(Modifiers::COMMAND, Key::S), Command::SaveState, "save the state"),
     row(press(Key::P), Command::Screenshot, "save the picture"),
     row(press(Key::H), Command::Panel, "hide or show the panel"),

@@ -3,24 +3,28 @@
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
 mod change;
+mod clerk;
 mod commands;
 mod files;
 mod frame;
 mod frame_time;
 mod hands;
 mod history;
+mod kept;
 mod keys;
 mod layout;
 mod loading;
 mod native;
 mod navigate;
 mod open;
+mod opening;
 mod order;
 mod pace;
 mod painter;
 mod panel;
 mod pick;
 mod picture;
+mod recent;
 mod request;
 mod resting;
 mod screen;
@@ -28,6 +32,7 @@ mod screen;
 mod server;
 mod sheet;
 mod sheet_view;
+mod shelf;
 mod state;
 mod sweep;
 #[cfg(test)]

@@ -3,7 +3,9 @@
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod display;
+mod folders;
 mod memory;
+mod watch;
 
 use std::path::PathBuf;
 use std::sync::mpsc;
@@ -17,7 +19,9 @@ use super::state::State;
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
-pub(super) use memory::{forget, remember, remembered};
+pub(super) use folders::{absolute, entered, in_full, listed};
+pub(super) use memory::{age, forget, remember, remembered, tidy};
+pub(super) use watch::Watch;
 
 /// A point in time.
 pub(super) use std::time::Instant;
@@ -148,7 +152,7 @@ pub(super) fn save_state(state: &State) -> String {
 }
 
 /// Control characters would end the comment that a name stands in.
-fn one_line(name: &str) -> String {
+pub(super) fn one_line(name: &str) -> String {
     name.chars().filter(|character| !character.is_control()).collect()
 }
 

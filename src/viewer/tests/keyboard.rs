@@ -9,7 +9,7 @@ use super::*;
 #[derive(Debug, PartialEq)]
 struct Snapshot {
     edits: Edits,
-    flags: [bool; 2],
+    flags: [bool; 3],
     request: Option<Request>,
 }
 
@@ -24,8 +24,8 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 330.0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, .. } = window.state;
-    Snapshot { edits, flags: [panel_hidden, keys_shown], request }
+    let State { edits, panel_hidden, keys_shown, opening, .. } = window.state;
+    Snapshot { edits, flags: [panel_hidden, keys_shown, opening.is_some()], request }
 }
 
 #[test]
@@ -45,11 +45,13 @@ fn each_key_has_its_effect() {
         let is_right = match row.command {
             Command::Undo => exposure(&found.edits).is_none() && found.edits.camera == nothing.edits.camera,
             Command::Redo => exposure(&found.edits) == Some(3.0.into()) && found.edits.camera == nothing.edits.camera,
+            Command::Open => found.flags == [false, false, true],
+            Command::Reload => found.request == Some(Request::Reload),
             Command::Screenshot => found.request == Some(Request::Screenshot),
             Command::SaveState => found.request == Some(Request::SaveState),
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
-            Command::Panel => found.flags == [true, false],
-            Command::Keys => found.flags == [false, true],
+            Command::Panel => found.flags == [true, false, false],
+            Command::Keys => found.flags == [false, true, false],
             Command::Home => found.edits.camera.is_none() && nothing.edits.camera.is_some(),
             Command::TurnBy(_) | Command::LookFrom(_) | Command::Frame => {
                 found.edits.camera.is_some() && found.edits.camera != nothing.edits.camera

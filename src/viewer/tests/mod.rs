@@ -209,7 +209,7 @@ fn place(node: &Node) -> Option<Rect> {
 }
 
 /// A velvet triangle of this size in metres, under one light.
-fn scene(size: f32) -> Scene {
+pub(super) fn scene(size: f32) -> Scene {
     let corners = vec![Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
     let instance = |name: &str| Instance { name: name.into(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
     let light = Light {
