@@ -59,7 +59,7 @@ impl Blended {
     /// Keeps the shapes of what is blended now.
     pub fn update(&mut self, drawn: &Drawn, draws: &Draws) {
         for instance in &draws.blended {
-            self.shapes.entry(instance.mesh).or_insert_with(|| Shape::new(&drawn.scene.meshes[instance.mesh]));
+            self.shapes.entry(instance.mesh).or_insert_with(|| Shape::new(drawn.mesh(instance.mesh)));
         }
     }
 

@@ -77,6 +77,8 @@ pub(super) struct Gathered {
     triangles: Vec<Triangle>,
     /// By instance: the light that it is of.
     lights: Vec<u32>,
+    /// By instance: what it is of the scene as loaded, if it is of it.
+    loaded: Vec<Option<usize>>,
 }
 
 impl Gathered {
@@ -84,7 +86,9 @@ impl Gathered {
         let lights = |instance| drawn.light_index(instance).map_or(NONE, |light| light as u32);
         let held: Vec<usize> = (0..drawn.instances.len()).filter(|&instance| kind.holds(drawn, instance)).collect();
         let triangles = held.into_par_iter().flat_map(|instance| triangles(drawn, instance)).collect();
-        Self { triangles, lights: (0..drawn.instances.len()).map(lights).collect() }
+        let instances = || 0..drawn.instances.len();
+        let loaded = instances().map(|instance| drawn.loaded_instance(instance)).collect();
+        Self { triangles, lights: instances().map(lights).collect(), loaded }
     }
 
     pub fn triangles(&self) -> usize {
@@ -98,7 +102,8 @@ impl Gathered {
         let triangle = |triangle: &Triangle| {
             let [first_edge, second_edge] = triangle.edges().map(scaled);
             let instance = triangle.instance as usize;
-            let record = opacities.first_of[instance].map_or(NONE, |first| first + triangle.index);
+            let first = self.loaded[instance].and_then(|loaded| opacities.first_of[loaded]);
+            let record = first.map_or(NONE, |first| first + triangle.index);
             let (light, corner) = (self.lights[instance], scaled(triangle.corner() - center));
             GpuTriangle { corner, light, first_edge, opacity: record, second_edge, padding: 0 }
         };
@@ -151,8 +156,8 @@ pub(super) fn most_nodes(triangles: usize) -> usize {
     4 * triangles + 4
 }
 
-fn mesh<'a>(drawn: &Drawn<'a>, instance: usize) -> &'a Mesh {
-    &drawn.scene.meshes[drawn.instances[instance].mesh]
+fn mesh<'a>(drawn: &'a Drawn, instance: usize) -> &'a Mesh {
+    drawn.mesh_of(instance)
 }
 
 fn triangles(drawn: &Drawn, instance: usize) -> Vec<Triangle> {
@@ -172,7 +177,7 @@ impl Opacities {
             looks.push(look.map(|_| found.looks.len() as u32));
             found.looks.extend(look);
         }
-        for instance in 0..drawn.instances.len() {
+        for instance in 0..drawn.scene.instances.len() {
             let mesh = mesh(drawn, instance);
             let look = looks[mesh.material];
             found.first_of.push(look.map(|_| found.records.len() as u32));

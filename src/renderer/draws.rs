@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::lights::LightKinds;
 use super::materials::Look;
-use crate::scene::{Bounds, Drawn, Instance, Mesh, Scene};
+use crate::scene::{Bounds, Drawn, Mesh};
 
 /// `VerticesInstance` of `vertices.wgsl`.
 #[repr(C)]
@@ -95,14 +95,14 @@ pub(super) struct BlendedInstance {
 impl Draws {
     /// `mesh_bounds` are the bounds of the scene's meshes, `kinds` the kinds of its lights.
     pub fn new(drawn: &Drawn, mesh_bounds: &[Bounds], kinds: LightKinds) -> Self {
-        let scene = drawn.scene;
         let is_hidden = |index: usize| !drawn.is_drawn(index);
         let looks: Vec<Look> = drawn.materials.iter().map(Look::new).collect();
-        let variant = |instance: &Instance| {
-            let mesh = &scene.meshes[instance.mesh];
-            Variant::new(looks[mesh.material], mesh, kinds, instance.mirrors())
+        let variant = |index: usize| {
+            let mesh = drawn.mesh_of(index);
+            let look = Look { double_sided: drawn.is_double_sided(index), ..looks[mesh.material] };
+            Variant::new(look, mesh, kinds, drawn.instances[index].mirrors())
         };
-        let variants: Vec<Variant> = drawn.instances.iter().map(variant).collect();
+        let variants: Vec<Variant> = (0..drawn.instances.len()).map(variant).collect();
         let key = |&index: &usize| {
             (is_hidden(index), variants[index].look.blend, variants[index], drawn.instances[index].mesh)
         };
@@ -114,8 +114,10 @@ impl Draws {
         for index in order {
             let instance = &drawn.instances[index];
             let at = draws.instances.len() as u32;
-            draws.instances.push(gpu_instance(scene, instance, drawn.emission(index), variants[index].mirrored));
-            let bounds = mesh_bounds[instance.mesh].transformed(instance.world_from_mesh);
+            draws.instances.push(gpu_instance(drawn, index, variants[index].mirrored));
+            let of_shape = || Bounds::of_points(&drawn.mesh(instance.mesh).positions);
+            let bounds = mesh_bounds.get(instance.mesh).copied().unwrap_or_else(of_shape);
+            let bounds = bounds.transformed(instance.world_from_mesh);
             draws.bounds.push(bounds);
             if is_hidden(index) {
                 continue;
@@ -124,7 +126,7 @@ impl Draws {
             match draws.batches.last_mut().filter(|batch| (batch.variant, batch.mesh) == (variant, mesh)) {
                 Some(batch) => batch.range.end = at + 1,
                 None => {
-                    let material = scene.meshes[mesh].material;
+                    let material = drawn.mesh(mesh).material;
                     draws.batches.push(Batch { variant, mesh, material, range: at..at + 1 });
                 }
             }
@@ -164,12 +166,13 @@ impl Draws {
     }
 }
 
-fn gpu_instance(scene: &Scene, instance: &Instance, emission: Vec3, mirrored: bool) -> GpuInstance {
+fn gpu_instance(drawn: &Drawn, index: usize, mirrored: bool) -> GpuInstance {
+    let instance = &drawn.instances[index];
     GpuInstance {
         world_from_mesh: instance.world_from_mesh,
         normal_from_mesh: instance.world_from_normal().to_cols_array_2d().map(|[x, y, z]| Vec4::new(x, y, z, 0.0)),
-        emission,
-        material: scene.meshes[instance.mesh].material as u32,
+        emission: drawn.emission(index),
+        material: drawn.mesh_of(index).material as u32,
         handedness: if mirrored { -1.0 } else { 1.0 },
         padding: [0; 3],
     }

@@ -94,7 +94,10 @@ impl GpuLights {
         let lit = || drawn.lights.iter().enumerate().filter(|(_, light)| light.radiance != Vec3::ZERO);
         let all = lit().flat_map(|(index, light)| (0..).zip(&light.polygons).map(move |(at, of)| ([index, at], of)));
         let pieces = all.flat_map(|(indices, polygon)| {
-            patterns.shown(indices, polygon, &mut sheets).into_iter().map(move |shown| (indices[0], shown))
+            let [light, at] = indices;
+            // Copies show what they are copies of.
+            let of = [drawn.loaded_light(light).unwrap_or(light), at];
+            patterns.shown(of, polygon, &mut sheets).into_iter().map(move |shown| (light, shown))
         });
         let pieces: Vec<(usize, Shown)> = pieces.collect();
         let mut add = |quads: bool| {
@@ -110,7 +113,7 @@ impl GpuLights {
             polygons.len() as u32
         };
         let (quads, all) = (add(true), add(false));
-        let punctual: Vec<GpuPunctual> = drawn.scene.punctual_lights.iter().map(one_punctual).collect();
+        let punctual: Vec<GpuPunctual> = drawn.punctual_lights.iter().map(one_punctual).collect();
         let counts = GpuCounts { quads, polygons: all, punctual: punctual.len() as u32 };
         Self { counts, polygons, vertices, punctual, points, sheets }
     }

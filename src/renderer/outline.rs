@@ -109,7 +109,7 @@ impl OutlinePass {
         let counts = |blended: bool, of: usize| !blended || of == material;
         let batches = resident.draws.batches.iter().filter(|batch| counts(batch.variant.look.blend, batch.material));
         let draws = batches.map(|batch| {
-            let indices = 0..resident.meshes[batch.mesh].index_count;
+            let indices = 0..resident.mesh(batch.mesh).index_count;
             Draw { batch, instances: batch.range.clone(), indices, source: Source::Mesh }
         });
         let calls = split(draws, triangles_a_pass);
@@ -123,7 +123,7 @@ impl OutlinePass {
             let load = if index == 0 { LoadOp::Clear(wgpu::Color::BLACK) } else { LoadOp::Load };
             let mut pass = begin(encoder, "outline mask", &mask, Some(&depth), load);
             for Call { draw, .. } in calls {
-                let mesh = &resident.meshes[draw.batch.mesh];
+                let mesh = resident.mesh(draw.batch.mesh);
                 pass.set_pipeline(&self.marks[&faces(draw)]);
                 pass.set_vertex_buffer(0, mesh.positions.slice(..));
                 let first = u64::from(draw.instances.start) * size_of::<Placed>() as u64;

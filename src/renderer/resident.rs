@@ -2,6 +2,7 @@
 //! things stand), whenever it changes.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use glam::{Vec2, Vec4};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -29,7 +30,9 @@ pub(super) struct MeshBuffers {
 
 /// The scene's buffers and textures.
 pub(super) struct Resident {
-    pub meshes: Vec<MeshBuffers>,
+    meshes: Vec<MeshBuffers>,
+    /// Those of lights that are added, by their index, from when they are first drawn on.
+    shapes: HashMap<usize, MeshBuffers>,
     mesh_bounds: Vec<Bounds>,
     pub instances: TrackedBuffer,
     /// The materials, the lights and their outlines.
@@ -72,8 +75,9 @@ impl Resident {
         };
         let [instances, punctual, light_points, sheets] = contents.stored();
         let (numbers, first) = contents.numbers();
-        Ok(Self {
+        let mut resident = Self {
             meshes: scene.meshes.iter().map(|mesh| mesh_buffers(gpu, mesh)).collect::<Result<_, _>>()?,
+            shapes: HashMap::new(),
             instances: stored(instances)?,
             numbers: TrackedNumbers::new(gpu, NUMBERS, numbers)?,
             first,
@@ -89,12 +93,31 @@ impl Resident {
             material_groups,
             draws: contents.draws,
             mesh_bounds,
-        })
+        };
+        resident.take_shapes(gpu, drawn)?;
+        Ok(resident)
+    }
+
+    /// The mesh of this index: the scene's, or the shape of a light that is added.
+    pub fn mesh(&self, index: usize) -> &MeshBuffers {
+        self.meshes.get(index).unwrap_or_else(|| &self.shapes[&index])
+    }
+
+    /// Uploads the shapes of added lights that are not there yet.
+    fn take_shapes(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<(), RenderError> {
+        let added = drawn.instances[drawn.scene.instances.len()..].iter().map(|instance| instance.mesh);
+        for index in added.filter(|&index| index >= self.meshes.len()) {
+            if let Entry::Vacant(place) = self.shapes.entry(index) {
+                place.insert(mesh_buffers(gpu, drawn.mesh(index))?);
+            }
+        }
+        Ok(())
     }
 
     /// Uploads the present values of materials, lights and instances. Returns whether buffers or textures were made
     /// anew, which happens where their contents have grown. Meshes and textures stay as they are.
     pub fn update(&mut self, gpu: &Gpu, drawn: &Drawn) -> Result<bool, RenderError> {
+        self.take_shapes(gpu, drawn)?;
         let contents = Contents::new(drawn, &self.mesh_bounds, &mut self.patterns);
         self.counts.write(&gpu.queue, bytemuck::bytes_of(&contents.lights.counts));
         let (numbers, first) = contents.numbers();

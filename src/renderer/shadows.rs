@@ -53,12 +53,16 @@ pub struct Built {
     units: (DVec3, f64),
 }
 
-/// By instance that is an emitter: whether it is drawn, and where.
-type Placed = Vec<(bool, Mat4)>;
+/// By instance that is an emitter: whether it is drawn, its mesh, and where.
+type Placed = Vec<(bool, usize, Mat4)>;
 
 fn placed(drawn: &Drawn) -> Placed {
     let emitters = (0..drawn.instances.len()).filter(|&instance| drawn.light_index(instance).is_some());
-    emitters.map(|instance| (drawn.is_drawn(instance), drawn.instances[instance].world_from_mesh)).collect()
+    let placed = |instance: usize| {
+        let Instance { mesh, world_from_mesh, .. } = drawn.instances[instance];
+        (drawn.is_drawn(instance), mesh, world_from_mesh)
+    };
+    emitters.map(placed).collect()
 }
 
 impl Blockers {
@@ -98,6 +102,8 @@ struct ResidentTrees {
     opacities: bool,
     /// Of what stays; none where nothing does.
     root: Option<u32>,
+    /// How many triangles of emitters there is room for.
+    room: usize,
     /// Where the records of opacity begin in the nodes.
     first_record: usize,
     placed: Placed,
@@ -117,14 +123,16 @@ impl Shadows {
         if self.lack.is_some() {
             return None;
         }
-        let (is_first, bounds) = (self.resident.is_none(), drawn.scene.bounds());
+        let (emitting, bounds) = (emitting_triangles(drawn), drawn.scene.bounds());
+        let has_room = self.resident.as_ref().is_some_and(|resident| emitting <= resident.room);
         // About the world's origin: about any other point, what is near that would lose digits.
         let most = bounds.min.abs().max(bounds.max.abs()).as_dvec3();
         let opacities = self.opacities.get_or_insert_with(|| Arc::new(Opacities::new(drawn)));
         Some(Blockers {
-            others: is_first.then(|| Gathered::new(drawn, Kind::Others)),
+            others: (!has_room).then(|| Gathered::new(drawn, Kind::Others)),
             emitters: Gathered::new(drawn, Kind::Emitters),
-            emitting: emitting_triangles(drawn),
+            // A few may be added without all being built anew.
+            emitting: emitting + SPARE,
             opacities: opacities.clone(),
             placed,
             units: units([-most, most]),
@@ -169,8 +177,8 @@ fn lack(limits: &Limits, drawn: &Drawn) -> Option<String> {
             "{looks} materials are cut out or blended, of at most {MOST_LOOKS} that rays tell apart: {WITHOUT}; merge those that are alike"
         ));
     }
-    let triangles = |instance: &Instance| drawn.scene.meshes[instance.mesh].indices.len() / 3;
-    let all: usize = drawn.instances.iter().map(triangles).sum();
+    let triangles = |instance: usize| drawn.mesh_of(instance).indices.len() / 3;
+    let all: usize = (0..drawn.instances.len()).map(triangles).sum();
     let most = side * ROW / TRIANGLE;
     (all > most).then(|| {
         format!("{all} triangles cast shadows, of at most {most} that the adapter holds: {WITHOUT}; simplify the scene")
@@ -198,6 +206,9 @@ const ROW: usize = 1 << 13;
 fn rows(texels: usize) -> usize {
     texels.div_ceil(ROW)
 }
+
+/// Room for triangles of emitters that are added.
+const SPARE: usize = 1 << 12;
 
 const WITHOUT: &str = "the picture is drawn without shadows";
 /// The most rows of nodes: `rays.wgsl` keeps a node's number in 24 bits.
@@ -257,7 +268,8 @@ impl ResidentTrees {
         });
         let opacities = !opacities.records.is_empty();
         let places = Placed::new();
-        let mut resident = Self { blockers, numbers, bind_group, held, opacities, root, first_record, placed: places };
+        let mut resident =
+            Self { blockers, numbers, bind_group, held, opacities, root, room: emitting, first_record, placed: places };
         resident.replace_emitters(&gpu.queue, emitters, placed);
         Ok(resident)
     }

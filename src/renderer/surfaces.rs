@@ -196,7 +196,7 @@ impl SurfacesPass {
     ) -> (Vec<Draw<'a>>, impl Iterator<Item = Draw<'a>> + use<'a>) {
         let frustum = Frustum::new(view.clip_from_world, view.eye);
         let opaque = resident.draws.opaque(&frustum).map(|(batch, instances)| {
-            let indices = 0..resident.meshes[batch.mesh].index_count;
+            let indices = 0..resident.mesh(batch.mesh).index_count;
             Draw { batch, instances, indices, source: Source::Mesh }
         });
         (opaque.collect(), blended.draws(resident))
@@ -239,7 +239,7 @@ impl SurfacesPass {
         (draw, before): (&Draw, Option<&Draw>),
         stage: Stage,
     ) {
-        let mesh = &resident.meshes[draw.batch.mesh];
+        let mesh = resident.mesh(draw.batch.mesh);
         let is_same_batch = before.is_some_and(|before| std::ptr::eq(before.batch, draw.batch));
         if !is_same_batch {
             pass.set_bind_group(1, resident.textures(draw.batch), &[]);

@@ -1,32 +1,49 @@
 //! The scene as it is drawn: a function of the scene as loaded and of what a user changes.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use glam::Vec3;
 
 use super::{
-    Edits, Instance, Layering, Light, Material, MaterialEdits, RoughnessMap, Scene, Settings, Sheen, TextureSlot,
+    Edits, Instance, Layering, Light, Material, MaterialEdits, Mesh, PunctualLight, RoughnessMap, Scene, Settings,
+    Sheen, TextureSlot,
 };
 
-/// A scene as edits draw it. Meshes, textures, lights without extent and cameras are those of the scene as loaded.
+/// A scene as edits draw it. Textures and cameras are those of the scene as loaded.
 ///
 /// Emitters and lights belong together: an emitter moves with its light, and glows as its light says, whatever has
-/// become of that since the scene was loaded. One that is a lamp is hidden with the lights.
+/// become of that since the scene was loaded. One that is a lamp is hidden with the lights, and when its light is not lit.
 #[derive(Clone, Debug)]
 pub struct Drawn<'a> {
     /// As loaded.
     pub scene: &'a Scene,
     /// Instead of `Scene::materials`. What an edit has replaced has no texture any more; a sheen that nobody could see
-    /// is left out.
+    /// is left out. The one past those of the scene, if there is one, is that of added lights' emitters.
     pub materials: Vec<Material>,
-    /// Instead of `Scene::lights`.
+    /// Instead of `Scene::lights`; those that are added follow. One that is not lit is black.
     pub lights: Vec<Light>,
-    /// Instead of `Scene::instances`.
+    /// Instead of `Scene::punctual_lights`; those that are added follow. One that is not lit is black.
+    pub punctual_lights: Cow<'a, [PunctualLight]>,
+    /// Instead of `Scene::instances`; the emitters of lights that are added follow.
     pub instances: Cow<'a, [Instance]>,
     /// What is no part of the scene.
     pub settings: Settings,
     /// By instance, the index of the light that it is the emitter of.
-    light_of: Vec<Option<usize>>,
+    pub(super) light_of: Vec<Option<usize>>,
+    /// Of instances past those of the scene: what each is a copy of.
+    pub(super) copies: Vec<Option<usize>>,
+    /// By light: whether it is lit, and whether both faces shine where that is changed.
+    pub(super) states: Vec<LightState>,
+    /// The meshes of added lights, by their index.
+    pub(super) shapes: BTreeMap<usize, Mesh>,
+}
+
+/// What a light's edits make of how its emitter is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LightState {
+    pub is_off: bool,
+    pub two_sided: Option<bool>,
 }
 
 /// The roughness of a sheen of which only the colour is given.
@@ -43,11 +60,15 @@ impl<'a> Drawn<'a> {
             scene,
             materials: materials(scene, edits),
             lights: scene.lights.clone(),
+            punctual_lights: Cow::Borrowed(&scene.punctual_lights),
             instances: Cow::Borrowed(&scene.instances),
             settings: edits.settings(),
             light_of,
+            copies: Vec::new(),
+            states: Vec::new(),
+            shapes: BTreeMap::new(),
         };
-        edits.lights.keys().for_each(|&index| drawn.edit_light(index, edits));
+        drawn.edit_lights(edits);
         drawn
     }
 
@@ -66,31 +87,52 @@ impl<'a> Drawn<'a> {
         self.light_of[instance]
     }
 
-    /// Whether the instance of this index is drawn: all are, but lamps where lights are not visible.
+    /// The mesh of this index: the scene's, or the shape of a light that is added.
+    pub fn mesh(&self, index: usize) -> &Mesh {
+        self.scene.meshes.get(index).unwrap_or_else(|| &self.shapes[&index])
+    }
+
+    /// The mesh of the instance of this index.
+    pub fn mesh_of(&self, instance: usize) -> &Mesh {
+        self.mesh(self.instances[instance].mesh)
+    }
+
+    /// The material of the instance of this index, as it is drawn.
+    pub fn material_of(&self, instance: usize) -> &Material {
+        &self.materials[self.mesh_of(instance).material]
+    }
+
+    /// The instance of the scene that the instance of this index is, or is a copy of; none where it is an added shape.
+    pub fn loaded_instance(&self, instance: usize) -> Option<usize> {
+        let loaded = self.scene.instances.len();
+        if instance < loaded { Some(instance) } else { self.copies[instance - loaded] }
+    }
+
+    /// The light of the scene that the light of this index is, or is a copy of; none where it is an added shape.
+    pub fn loaded_light(&self, light: usize) -> Option<usize> {
+        if light < self.scene.lights.len() {
+            Some(light)
+        } else {
+            self.loaded_instance(self.lights[light].instance).and_then(|instance| self.light_of[instance])
+        }
+    }
+
+    /// Whether both faces of the instance of this index are drawn: as its light shines where that is changed, else as its material says.
+    pub fn is_double_sided(&self, instance: usize) -> bool {
+        let by_light = self.light_index(instance).and_then(|light| self.states[light].two_sided);
+        by_light.unwrap_or(self.material_of(instance).double_sided)
+    }
+
+    /// Whether the instance of this index is drawn: all are, but lamps where lights are not visible, or where theirs is not lit.
     pub fn is_drawn(&self, instance: usize) -> bool {
-        self.settings.lights_visible || !self.light(instance).is_some_and(Light::is_lamp)
+        let Some(light) = self.light_index(instance).filter(|&light| self.lights[light].is_lamp()) else { return true };
+        self.settings.lights_visible && !self.states[light].is_off
     }
 
     /// The radiance that the surface of the instance of this index emits where its emissive texture is white: its
     /// light's, else its material's. Linear Rec. 709, >= 0.
     pub fn emission(&self, instance: usize) -> Vec3 {
-        let material = self.scene.meshes[self.instances[instance].mesh].material;
-        self.light(instance).map_or(self.materials[material].emission, Light::emission)
-    }
-
-    /// Changes a light, and moves the emitter that is drawn for it along.
-    fn edit_light(&mut self, index: usize, edits: &Edits) {
-        let (edits, light) = (edits.of_light(index), &mut self.lights[index]);
-        light.radiance = edits.radiance(light.radiance);
-        let offset = edits.position.map_or(Vec3::ZERO, |position| position - light.position());
-        if offset != Vec3::ZERO {
-            let outlines = light.polygons.iter_mut().flat_map(|polygon| &mut polygon.contours);
-            outlines.flatten().for_each(|vertex| *vertex += offset);
-            let patterns = light.polygons.iter_mut().filter_map(|polygon| polygon.pattern.as_mut());
-            patterns.for_each(|pattern| pattern.origin += offset);
-            let instances = self.instances.to_mut();
-            light.emitters().for_each(|emitter| instances[emitter].world_from_mesh.w_axis += offset.extend(0.0));
-        }
+        self.light(instance).map_or(self.material_of(instance).emission, Light::emission)
     }
 }
 

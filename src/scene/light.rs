@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use glam::Vec3;
 
 use super::Pattern;
@@ -97,6 +99,23 @@ pub struct PunctualLight {
     pub position: Vec3,
     /// The direction in which it shines, unit; without meaning for points.
     pub direction: Vec3,
+}
+
+impl PunctualLight {
+    /// What it would send out in all, W, with this intensity in W/sr, by KHR_lights_punctual's falloff from the inner to the outer
+    /// angle; a directional light's has no end.
+    pub fn power(&self, intensity: f32) -> Option<f32> {
+        let solid_angle = match self.kind {
+            PunctualKind::Point { .. } => 4.0 * PI,
+            // The falloff is the square of what is linear in the cosine, of which the mean is a third.
+            PunctualKind::Spot { inner, outer, .. } => {
+                let [full, none] = [inner, outer].map(|angle| 2.0 * (0.5 * f64::from(angle)).sin().powi(2));
+                2.0 * PI * (full + (none - full) / 3.0)
+            }
+            PunctualKind::Directional => return None,
+        };
+        Some((solid_angle * f64::from(intensity)) as f32)
+    }
 }
 
 /// How a light without extent shines.

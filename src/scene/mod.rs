@@ -5,12 +5,14 @@
 
 #[cfg(feature = "cli")]
 pub mod assets;
+pub mod black_body;
 mod bounds;
 mod camera;
 mod clusters;
 mod convex_parts;
 mod cutout;
 mod drawn;
+mod drawn_lights;
 mod edits;
 mod emission;
 mod emitter;
@@ -19,6 +21,7 @@ mod framing;
 pub mod gltf;
 mod islands;
 mod light;
+mod light_frame;
 mod lighting;
 mod lights;
 mod material;
@@ -38,6 +41,7 @@ mod tangents;
 mod tests;
 mod texture;
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
@@ -47,10 +51,12 @@ pub use camera::{Camera, Projection};
 pub use cutout::Cutout;
 pub use drawn::Drawn;
 pub use edits::{
-    CameraEdit, Carrier, Edits, EditsError, Keyed, Kind, LightEdits, MaterialEdits, UnknownThing, Value, select,
+    Added, AddedLight, AddedPunctual, CameraEdit, Carrier, Edits, EditsError, Keyed, Kind, LightEdits, LightShape,
+    MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
 };
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};
+pub use light_frame::LightFrame;
 pub use material::{AlphaMode, Material, TextureSlot};
 pub use mesh::{Instance, Mesh};
 pub use mipmap::{Encoding, Level};
@@ -80,6 +86,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Polygonal area lights.
     pub lights: Vec<Light>,
+    /// Those of them that are the default rig, which no file has.
+    pub rig: Range<usize>,
     /// Lights without extent.
     pub punctual_lights: Vec<PunctualLight>,
     /// The views. After loading there is at least one; the first is the default.

@@ -3,7 +3,9 @@
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::notices::Notices;
-use super::{Camera, Instance, Projection, Scene, emitter, lighting, lights};
+use super::{
+    Added, AddedLight, Camera, Instance, LightEdits, LightShape, Projection, Scene, emitter, lighting, lights,
+};
 
 /// Radiance of a white diffuse surface that faces the key, fill or rim light.
 const KEY_LEVEL: f32 = 0.7;
@@ -36,6 +38,12 @@ const PANELS: [Panel; 3] = [
 ];
 
 impl Panel {
+    /// Of its front, by the form factor of a small rectangle that faces a surface: its area over pi times the distance squared.
+    fn radiance(&self) -> f32 {
+        let form_factor = 4.0 * self.half_size[0] * self.half_size[1] / (std::f32::consts::PI * DISTANCE * DISTANCE);
+        self.level / form_factor
+    }
+
     /// Places it for a subject of `radius` about `center`: takes a square of two metres a side in the plane z = 0,
     /// which glows towards +z, to the world.
     fn world_from_mesh(&self, camera: &Camera, center: Vec3, radius: f32) -> Mat4 {
@@ -63,8 +71,38 @@ pub(super) fn add_where_dark(scene: &mut Scene, notices: &mut Notices) {
 
 /// Adds the rig around the subject, as the first camera sees it.
 pub(super) fn add(scene: &mut Scene, notices: &mut Notices) {
-    let Some(camera) = scene.cameras.first() else { return };
-    let first = scene.instances.len();
+    let Some(placed) = placed(scene) else { return };
+    let (first, first_light) = (scene.instances.len(), scene.lights.len());
+    for (panel, world_from_mesh) in PANELS.iter().zip(placed) {
+        add_panel(scene, panel, world_from_mesh);
+    }
+    lights::add_lights(scene, first, notices);
+    scene.rig = first_light..scene.lights.len();
+}
+
+impl Scene {
+    /// The lights of a rig around the subject, as the first camera sees it, for a scene that has been loaded without one; none without
+    /// a camera.
+    pub fn studio_rig(&self) -> Vec<AddedLight> {
+        let of_panel = |(panel, world_from_mesh): (&Panel, Mat4)| {
+            let (scale, rotation, position) = world_from_mesh.to_scale_rotation_translation();
+            let changes = LightEdits {
+                radiance: Some(Vec3::splat(panel.radiance())),
+                position: Some(position),
+                rotation: Some(rotation),
+                // A panel measures two metres before it is placed.
+                size: Some(2.0 * scale.truncate()),
+                ..LightEdits::default()
+            };
+            Added { name: format!("{} light", panel.name), shape: LightShape::Rectangle, changes }
+        };
+        placed(self).map(|placed| PANELS.iter().zip(placed).map(of_panel).collect()).unwrap_or_default()
+    }
+}
+
+/// Where the panels stand.
+fn placed(scene: &Scene) -> Option<[Mat4; PANELS.len()]> {
+    let camera = scene.cameras.first()?;
     let subject = scene.subject();
     let (center, radius) = (subject.center(), subject.radius());
     // Farther away and larger by the same factor it lights the subject alike, and at last it leaves the frame.
@@ -72,11 +110,7 @@ pub(super) fn add(scene: &mut Scene, notices: &mut Notices) {
     let placed = sizes.map(|size| PANELS.each_ref().map(|panel| panel.world_from_mesh(camera, center, size)));
     let unseen = |placed: &[Mat4; PANELS.len()]| !placed.iter().any(|&panel| shows(camera, panel));
     let placed: Vec<_> = placed.collect();
-    let placed = *placed.iter().find(|placed| unseen(placed)).unwrap_or(&placed[0]);
-    for (panel, world_from_mesh) in PANELS.iter().zip(placed) {
-        add_panel(scene, panel, world_from_mesh);
-    }
-    lights::add_lights(scene, first, notices);
+    Some(*placed.iter().find(|placed| unseen(placed)).unwrap_or(&placed[0]))
 }
 
 /// Whether any part of a panel's face may be in the frame.
@@ -101,9 +135,7 @@ fn shows(camera: &Camera, world_from_mesh: Mat4) -> bool {
 
 fn add_panel(scene: &mut Scene, panel: &Panel, world_from_mesh: Mat4) {
     let name = format!("default {} light", panel.name);
-    // The form factor of a small rectangle that faces a surface: its area over pi times the distance squared.
-    let form_factor = 4.0 * panel.half_size[0] * panel.half_size[1] / (std::f32::consts::PI * DISTANCE * DISTANCE);
-    let emission = Vec3::splat(panel.level / form_factor);
+    let emission = Vec3::splat(panel.radiance());
     let mesh = emitter::add_mesh(scene, &name, &emitter::rectangle(Vec2::ONE), emission);
     scene.instances.push(Instance { name, mesh, world_from_mesh });
 }

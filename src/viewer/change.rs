@@ -25,7 +25,7 @@ impl Change {
     pub fn between(before: &Edits, after: &Edits) -> Self {
         let are_seen = |edits: &Edits| edits.settings().lights_visible;
         let drawn = |edits: &Edits| Settings { tone: Default::default(), exposure: 0.0, ..edits.settings() };
-        if are_seen(before) != are_seen(after) || before.lights != after.lights {
+        if are_seen(before) != are_seen(after) || !before.has_lights_of(after) {
             Self::Lights
         } else if before.every_material != after.every_material || before.materials != after.materials {
             Self::Materials

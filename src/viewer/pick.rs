@@ -119,7 +119,7 @@ pub fn pick(drawn: &Drawn, ray: &Ray) -> Option<Picked> {
     let mut boxed: Option<(usize, Bounds)> = None;
     for instance in shown {
         let placed = &drawn.instances[instance];
-        let mesh = &drawn.scene.meshes[placed.mesh];
+        let mesh = drawn.mesh(placed.mesh);
         let bounds = match boxed {
             Some((index, bounds)) if index == placed.mesh => bounds,
             _ => Bounds::of_points(&mesh.positions),
@@ -132,12 +132,13 @@ pub fn pick(drawn: &Drawn, ray: &Ray) -> Option<Picked> {
         if !ray.meets(&bounds) {
             continue;
         }
-        let surface = Surface { drawn, mesh, material: &drawn.materials[mesh.material] };
+        let culled = !drawn.is_double_sided(instance);
+        let surface = Surface { drawn, mesh, material: &drawn.materials[mesh.material], culled };
         nearest = surface.nearest(&ray).map(|depth| (depth, instance)).or(nearest);
     }
     nearest.map(|(depth, instance)| Picked {
         instance,
-        material: drawn.scene.meshes[drawn.instances[instance].mesh].material,
+        material: drawn.mesh_of(instance).material,
         point: ray.point(depth).as_vec3(),
     })
 }
@@ -154,7 +155,7 @@ pub fn subject(drawn: &Drawn, camera: &Camera) -> Option<Vec3> {
 /// The box of an instance in the world, metres.
 pub fn bounds(drawn: &Drawn, instance: usize) -> Bounds {
     let placed = &drawn.instances[instance];
-    Bounds::of_points(&drawn.scene.meshes[placed.mesh].positions).transformed(placed.world_from_mesh)
+    Bounds::of_points(&drawn.mesh(placed.mesh).positions).transformed(placed.world_from_mesh)
 }
 
 /// A mesh and what it is made of.
@@ -162,17 +163,18 @@ struct Surface<'a> {
     drawn: &'a Drawn<'a>,
     mesh: &'a Mesh,
     material: &'a Material,
+    /// Whether it is seen from its front alone.
+    culled: bool,
 }
 
 impl Surface<'_> {
     /// The least depth at which a ray in the mesh's space meets it. There front faces are counter-clockwise, whatever
     /// becomes of them in the world.
     fn nearest(&self, ray: &Ray) -> Option<f64> {
-        let culled = !self.material.double_sided;
         let of_chunk = |indices: &[u32]| {
             let depths = indices.as_chunks::<3>().0.iter().filter_map(|corners| {
                 let places = corners.map(|at| self.mesh.positions[at as usize].as_dvec3());
-                let (depth, weights) = ray.meeting(places, culled)?;
+                let (depth, weights) = ray.meeting(places, self.culled)?;
                 self.is_there(corners, weights).then_some(depth)
             });
             depths.min_by(f64::total_cmp)

@@ -30,6 +30,7 @@ pub mod keys {
     pub const ENTER: u32 = 0xff0d;
     pub const ESCAPE: u32 = 0xff1b;
     pub const HOME: u32 = 0xff50;
+    pub const DOWN: u32 = 0xff54;
     pub const SHIFT: u32 = 0xffe1;
     pub const CONTROL: u32 = 0xffe3;
 }

@@ -8,6 +8,7 @@ mod dragging;
 mod feel;
 mod files;
 mod hands;
+mod kept;
 mod panel;
 mod places;
 mod plates;

@@ -64,7 +64,7 @@ impl<'a> Lights<'a> {
     pub fn new(drawn: &'a Drawn) -> Self {
         let lit = drawn.lights.iter().filter(|light| light.radiance != glam::Vec3::ZERO);
         let parts = lit.flat_map(|light| light.polygons.iter().flat_map(move |polygon| parts(light, polygon)));
-        Self { parts: parts.collect(), punctual: &drawn.scene.punctual_lights }
+        Self { parts: parts.collect(), punctual: &drawn.punctual_lights }
     }
 
     /// The parts that a point sees, in the point's frame; `up` is the interpolated normal in it, from which a normal

@@ -94,7 +94,7 @@ fn met(context: &Context, ray: &Ray, sample: &mut Sample) -> Option<(Surface, bo
         let hit = world.nearest(ray, [near, f64::INFINITY])?;
         if hit.opacity >= 1.0 || sample.uniforms.next()[0] < hit.opacity {
             // The backs of one-sided surfaces are black.
-            let is_seen = hit.front || world.material(&hit).double_sided;
+            let is_seen = hit.front || world.is_double_sided(&hit);
             let surface = Surface::new(world, ray, &hit);
             return is_seen.then(|| (surface, world.is_light(&hit)));
         }

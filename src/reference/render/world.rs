@@ -53,7 +53,7 @@ impl<'a> World<'a> {
     pub fn new(drawn: &'a Drawn) -> Result<Self, ReferenceError> {
         let (scene, instances) = (drawn.scene, &drawn.instances);
         let seen: Vec<usize> = (0..instances.len()).filter(|&index| drawn.is_drawn(index)).collect();
-        let count = |&index: &usize| scene.meshes[instances[index].mesh].indices.len() / 3;
+        let count = |&index: &usize| drawn.mesh_of(index).indices.len() / 3;
         let triangles: usize = seen.iter().map(count).sum();
         if triangles > TRIANGLES_MAX {
             return Err(ReferenceError::Triangles { triangles, most: TRIANGLES_MAX });
@@ -67,7 +67,7 @@ impl<'a> World<'a> {
         };
         let places: Vec<Place> = instances.iter().enumerate().map(place).collect();
         let of_instance = |&index: &usize| {
-            let mesh = &scene.meshes[instances[index].mesh];
+            let mesh = drawn.mesh_of(index);
             let place = &places[index];
             let triangles = mesh.indices.as_chunks::<3>().0.par_iter().enumerate();
             triangles.map(move |(at, corners)| {
@@ -89,7 +89,7 @@ impl<'a> World<'a> {
     }
 
     fn mesh_of(&self, triangle: &Triangle) -> &'a Mesh {
-        &self.scene.meshes[self.drawn.instances[triangle.instance as usize].mesh]
+        self.drawn.mesh_of(triangle.instance as usize)
     }
 
     fn material_of(&self, triangle: &Triangle) -> &'a Material {
@@ -120,7 +120,7 @@ impl<'a> World<'a> {
 
     /// The nearest surface that is seen along a ray between two distances; one-sided surfaces are not seen from behind.
     pub fn nearest_seen(&self, ray: &Ray, range: [f64; 2]) -> Option<Hit> {
-        self.nearest_of(ray, range, |hit| hit.front || self.material(hit).double_sided)
+        self.nearest_of(ray, range, |hit| hit.front || self.is_double_sided(hit))
     }
 
     /// The nearest surface along a ray between two distances, from the front or from behind.
@@ -161,7 +161,12 @@ impl<'a> World<'a> {
         self.material_of(&self.bvh.primitives()[hit.triangle])
     }
 
-    /// Index into `Scene::materials`.
+    /// Whether it is seen from behind, too.
+    pub fn is_double_sided(&self, hit: &Hit) -> bool {
+        self.drawn.is_double_sided(self.bvh.primitives()[hit.triangle].instance as usize)
+    }
+
+    /// Index into `Drawn::materials`.
     pub fn material_index(&self, hit: &Hit) -> usize {
         self.mesh_of(&self.bvh.primitives()[hit.triangle]).material
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{CameraEdit, Edits, Kind};
+use super::{Added, CameraEdit, Edits, Kind, LightShape, PunctualShape};
 use crate::scene::Scene;
 use crate::scene::error::one_line;
 
@@ -13,6 +13,7 @@ pub struct Carrier<'a> {
     from: &'a Scene,
     materials: Vec<Option<usize>>,
     lights: Vec<Option<usize>>,
+    punctual: Vec<Option<usize>>,
     cameras: Vec<Option<usize>>,
 }
 
@@ -28,9 +29,18 @@ impl<'a> Carrier<'a> {
         let mut lost = Vec::new();
         let materials = self.moved(&edits.materials, Kind::Material, &self.materials, &mut lost);
         let lights = self.moved(&edits.lights, Kind::Light, &self.lights, &mut lost);
+        let punctual = self.moved(&edits.punctual, Kind::Punctual, &self.punctual, &mut lost);
+        let added_lights = added(&edits.added_lights, &mut lost, |shape| match shape {
+            LightShape::Copy(index) => at(&self.lights, index).map(LightShape::Copy),
+            other => Some(other),
+        });
+        let added_punctual = added(&edits.added_punctual, &mut lost, |shape| match shape {
+            PunctualShape::Copy(index) => at(&self.punctual, index).map(PunctualShape::Copy),
+            other => Some(other),
+        });
         let camera = match edits.camera {
             Some(CameraEdit::Loaded(index)) => {
-                let found = self.cameras.get(index).copied().flatten();
+                let found = at(&self.cameras, index);
                 if found.is_none() {
                     lost.push(self.called(Kind::Camera, index));
                 }
@@ -38,12 +48,13 @@ impl<'a> Carrier<'a> {
             }
             view => view,
         };
-        (Edits { materials, lights, camera, ..edits.clone() }, lost)
+        let carried = Edits { materials, lights, punctual, added_lights, added_punctual, camera, ..edits.clone() };
+        (carried, lost)
     }
 
     /// The index of a material in the other version; none where it is there no more.
     pub fn material(&self, index: usize) -> Option<usize> {
-        self.materials.get(index).copied().flatten()
+        at(&self.materials, index)
     }
 
     fn moved<T: Clone>(
@@ -55,7 +66,7 @@ impl<'a> Carrier<'a> {
     ) -> BTreeMap<usize, T> {
         let mut moved = BTreeMap::new();
         for (&index, own) in edits {
-            match found.get(index).copied().flatten() {
+            match at(found, index) {
                 Some(there) => _ = moved.insert(there, own.clone()),
                 None => lost.push(self.called(kind, index)),
             }
@@ -70,6 +81,27 @@ impl<'a> Carrier<'a> {
             _ => format!("{} {index}", kind.noun()),
         }
     }
+}
+
+/// The index that has been found for one.
+fn at(found: &[Option<usize>], index: usize) -> Option<usize> {
+    found.get(index).copied().flatten()
+}
+
+/// Added lights; those that are copies of something need it still.
+fn added<Shape: Copy, Changes: Clone>(
+    lights: &[Added<Shape, Changes>],
+    lost: &mut Vec<String>,
+    moved: impl Fn(Shape) -> Option<Shape>,
+) -> Vec<Added<Shape, Changes>> {
+    let mut carried = Vec::new();
+    for light in lights {
+        match moved(light.shape) {
+            Some(shape) => carried.push(Added { shape, ..light.clone() }),
+            None => lost.push(one_line(&format!("added light {}", light.name))),
+        }
+    }
+    carried
 }
 
 /// For each name of one list its index in another.
@@ -168,6 +200,18 @@ mod tests {
         assert_eq!(carried.lights, [(0, LightEdits { strength: Some(1.0), ..LightEdits::default() })].into());
         assert_eq!((places(&carried), carried.camera), (vec![(2, 0.0)], None));
         assert_eq!([0, 2].map(|index| carrier.material(index)), [None, Some(0)]);
+    }
+
+    #[test]
+    fn added_lights_stay_unless_they_are_copies_of_what_is_gone() {
+        let from = scene(&[], &["key", "rim"], &[]);
+        let to = scene(&[], &["new", "rim"], &[]);
+        let light = |name: &str, shape| Added { name: name.into(), shape, changes: LightEdits::default() };
+        let added_lights =
+            vec![light("a", LightShape::Disk), light("b", LightShape::Copy(0)), light("c", LightShape::Copy(1))];
+        let (carried, lost) = Carrier::new(&from, &to).carry(&Edits { added_lights, ..Edits::default() });
+        assert_eq!(carried.added_lights, [light("a", LightShape::Disk), light("c", LightShape::Copy(1))]);
+        assert_eq!(lost, ["added light b"]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The keys by which flags and files name what is changed. Reading and writing go through the same lists.
 
-use super::{Edits, LightEdits, MaterialEdits, Value};
+use super::{Edits, MaterialEdits, Value};
 use crate::scene::{Orbit, Projection};
 
 /// A group of things that are changed by key.
@@ -22,7 +22,7 @@ pub trait Keyed {
 }
 
 /// A key with its value where that is set.
-fn entry<T: Into<Value>>(key: &'static str, value: Option<T>) -> Option<(&'static str, Value)> {
+pub(super) fn entry<T: Into<Value>>(key: &'static str, value: Option<T>) -> Option<(&'static str, Value)> {
     value.map(|value| (key, value.into()))
 }
 
@@ -70,26 +70,6 @@ impl Keyed for MaterialEdits {
             entry("metallic", self.metallic),
             entry("roughness", self.roughness),
         ];
-        entries.into_iter().flatten().collect()
-    }
-}
-
-impl Keyed for LightEdits {
-    const KEYS: &'static [&'static str] = &["radiance", "strength", "position"];
-
-    fn set(&mut self, key: &str, value: &Value) -> Result<(), String> {
-        match key {
-            "radiance" => self.radiance = Some(value.radiance()?),
-            "strength" => self.strength = Some(value.strength()?),
-            "position" => self.position = Some(value.point()?),
-            _ => return Err(Self::unknown_key()),
-        }
-        Ok(())
-    }
-
-    fn entries(&self) -> Vec<(&'static str, Value)> {
-        let entries =
-            [entry("radiance", self.radiance), entry("strength", self.strength), entry("position", self.position)];
         entries.into_iter().flatten().collect()
     }
 }

@@ -5,8 +5,12 @@
 
 mod carried;
 mod keys;
+mod light;
+mod light_keys;
+mod lighting;
 mod selection;
 mod text;
+mod text_added;
 mod value;
 
 use std::collections::BTreeMap;
@@ -18,6 +22,7 @@ use crate::picture::{Exposure, ToneCurve};
 
 pub use carried::Carrier;
 pub use keys::Keyed;
+pub use light::{Added, AddedLight, AddedPunctual, LightEdits, LightShape, PunctualEdits, PunctualShape};
 pub use selection::{Kind, UnknownThing, select};
 pub use text::EditsError;
 pub use value::Value;
@@ -50,6 +55,12 @@ pub struct Edits {
     pub materials: BTreeMap<usize, MaterialEdits>,
     /// What is changed in single lights, by their index into `Scene::lights`.
     pub lights: BTreeMap<usize, LightEdits>,
+    /// Polygon lights that the scene does not have. Where lights are counted they follow those of the scene.
+    pub added_lights: Vec<AddedLight>,
+    /// What is changed in single lights without extent, by their index into `Scene::punctual_lights`.
+    pub punctual: BTreeMap<usize, PunctualEdits>,
+    /// Lights without extent that the scene does not have. Where they are counted they follow those of the scene.
+    pub added_punctual: Vec<AddedPunctual>,
 }
 
 /// From where the scene is seen.
@@ -89,17 +100,6 @@ pub struct MaterialEdits {
     pub roughness: Option<f32>,
 }
 
-/// What is changed in a polygon light and in the emitter that is drawn for it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LightEdits {
-    /// Linear Rec. 709, >= 0.
-    pub radiance: Option<Vec3>,
-    /// A factor of the radiance, >= 0; at 0 its hue is kept.
-    pub strength: Option<f32>,
-    /// Where the mean of its outlines' vertices is moved to, metres.
-    pub position: Option<Vec3>,
-}
-
 impl Edits {
     /// Edits and then `later` ones, which win. What is changed later in all materials is changed in those, too, that
     /// had been changed by themselves.
@@ -117,6 +117,12 @@ impl Edits {
             let own = self.lights.entry(index).or_default();
             *own = edits.or(*own);
         }
+        for (&index, &edits) in &later.punctual {
+            let own = self.punctual.entry(index).or_default();
+            *own = edits.or(*own);
+        }
+        self.added_lights.extend_from_slice(&later.added_lights);
+        self.added_punctual.extend_from_slice(&later.added_punctual);
         Self {
             lobes: later.lobes.or(self.lobes),
             lights_visible: later.lights_visible.or(self.lights_visible),
@@ -159,11 +165,6 @@ impl Edits {
     pub fn of_material(&self, index: usize) -> MaterialEdits {
         self.materials.get(&index).copied().unwrap_or_default().or(self.every_material)
     }
-
-    /// What is changed in the light of this index.
-    pub fn of_light(&self, index: usize) -> LightEdits {
-        self.lights.get(&index).copied().unwrap_or_default()
-    }
 }
 
 impl MaterialEdits {
@@ -203,22 +204,6 @@ impl MaterialEdits {
     pub fn gives_sheen(&self) -> bool {
         let is_set = self.alpha.is_some() || self.sheen_color.is_some() || self.sheen_weight.is_some();
         self.sheen.unwrap_or(is_set)
-    }
-}
-
-impl LightEdits {
-    /// These, and `others` where these are `None`.
-    pub fn or(self, others: Self) -> Self {
-        Self {
-            radiance: self.radiance.or(others.radiance),
-            strength: self.strength.or(others.strength),
-            position: self.position.or(others.position),
-        }
-    }
-
-    /// The radiance of a light that was loaded with `radiance`.
-    pub fn radiance(&self, radiance: Vec3) -> Vec3 {
-        scaled(self.radiance.unwrap_or(radiance), self.strength)
     }
 }
 

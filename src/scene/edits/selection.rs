@@ -9,6 +9,8 @@ pub enum Kind {
     Material,
     /// `Scene::lights`
     Light,
+    /// `Scene::punctual_lights`
+    Punctual,
     /// `Scene::cameras`
     Camera,
 }
@@ -29,6 +31,7 @@ impl Kind {
         match self {
             Self::Material => "material",
             Self::Light => "light",
+            Self::Punctual => "punctual-light",
             Self::Camera => "camera",
         }
     }
@@ -38,6 +41,7 @@ impl Kind {
         match self {
             Self::Material => scene.materials.iter().map(|material| material.name.as_str()).collect(),
             Self::Light => scene.lights.iter().map(|light| light.name.as_str()).collect(),
+            Self::Punctual => scene.punctual_lights.iter().map(|light| light.name.as_str()).collect(),
             Self::Camera => scene.cameras.iter().map(|camera| camera.name.as_str()).collect(),
         }
     }

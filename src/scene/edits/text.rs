@@ -6,6 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::selection::{indexed, named};
+use super::text_added::{ADDED, write_added};
 use super::{CameraEdit, Edits, Keyed, Kind, MaterialEdits, Value, select};
 use crate::scene::error::one_line;
 use crate::scene::{Orbit, Projection, Scene};
@@ -35,16 +36,21 @@ impl Edits {
             write_keys(&mut text, orbit.entries());
         }
         for (&index, edits) in &self.materials {
-            write_thing(&mut text, "material", reference_to(scene, Kind::Material, index), edits);
+            write_thing(&mut text, Kind::Material, reference_to(scene, Kind::Material, index), edits);
         }
         for (&index, edits) in &self.lights {
-            write_thing(&mut text, "light", reference_to(scene, Kind::Light, index), edits);
+            write_thing(&mut text, Kind::Light, reference_to(scene, Kind::Light, index), edits);
         }
+        for (&index, edits) in &self.punctual {
+            write_thing(&mut text, Kind::Punctual, reference_to(scene, Kind::Punctual, index), edits);
+        }
+        write_added(&mut text, self, scene);
         text
     }
 
     /// The edits of `scene` in a text: keys of the picture, `camera`, and keys of all materials at the top; `[view]`; a
-    /// `[[material]]` and a `[[light]]` with a `name` or an `index` for each thing that is changed by itself.
+    /// `[[material]]`, a `[[light]]` and a `[[punctual-light]]` with a `name` or an `index` for each thing that is changed by
+    /// itself; and an `[[added-light]]` for each that is added.
     pub fn from_text(text: &str, scene: &Scene) -> Result<Self, EditsError> {
         let reader = Reader { text, scene };
         let root = DeTable::parse(text).map_err(|error| {
@@ -55,24 +61,24 @@ impl Edits {
     }
 }
 
-fn write_keys(text: &mut String, entries: Vec<(&str, Value)>) {
+pub(super) fn write_keys(text: &mut String, entries: Vec<(&str, Value)>) {
     for (key, value) in entries {
         // Writing to a string does not fail.
         let _ = writeln!(text, "{key} = {}", written(&value));
     }
 }
 
-fn write_thing(text: &mut String, kind: &str, (key, value): (&'static str, Value), edits: &impl Keyed) {
+fn write_thing(text: &mut String, kind: Kind, (key, value): (&'static str, Value), edits: &impl Keyed) {
     let entries = edits.entries();
     if !entries.is_empty() {
-        let _ = writeln!(text, "\n[[{kind}]]");
+        let _ = writeln!(text, "\n[[{}]]", kind.noun());
         write_keys(text, vec![(key, value)]);
         write_keys(text, entries);
     }
 }
 
 /// The key and the value by which a file names a thing: its name where no other has it, else its index.
-fn reference_to(scene: &Scene, kind: Kind, index: usize) -> (&'static str, Value) {
+pub(super) fn reference_to(scene: &Scene, kind: Kind, index: usize) -> (&'static str, Value) {
     let name = kind.names(scene)[index];
     match named(scene, kind, name) {
         Ok(all) if all.len() == 1 && !name.is_empty() => ("name", name.into()),
@@ -96,13 +102,13 @@ fn written(value: &Value) -> String {
 }
 
 /// What is read, and the scene that it is for.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     text: &'a str,
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
 }
 
 impl Reader<'_> {
-    fn error(&self, at: usize, place: String, what: impl ToString) -> EditsError {
+    pub(super) fn error(&self, at: usize, place: String, what: impl ToString) -> EditsError {
         let line = 1 + self.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
         EditsError { line, place: one_line(&place), what: one_line(&what.to_string()) }
     }
@@ -117,6 +123,8 @@ impl Reader<'_> {
                 "view" => edits.camera = Some(CameraEdit::Orbit(self.view(value)?)),
                 "material" => self.things(value, Kind::Material, &mut edits.materials)?,
                 "light" => self.things(value, Kind::Light, &mut edits.lights)?,
+                "punctual-light" => self.things(value, Kind::Punctual, &mut edits.punctual)?,
+                ADDED => self.added(value, &mut edits)?,
                 "camera" if root.contains_key("view") => {
                     return Err(of_key("[view] says from where, too; keep one of them".to_owned()));
                 }
@@ -134,7 +142,9 @@ impl Reader<'_> {
                 name if Edits::KEYS.contains(&name) => self.set(&mut edits, key, value, "")?,
                 _ => {
                     let keys = [Edits::KEYS, &["camera"], MaterialEdits::KEYS].concat().join(", ");
-                    return Err(of_key(format!("the keys are {keys}, and [view], [[material]] and [[light]]")));
+                    return Err(of_key(format!(
+                        "the keys are {keys}, and [view], [[material]], [[light]], [[punctual-light]] and [[{ADDED}]]"
+                    )));
                 }
             }
         }
@@ -210,7 +220,7 @@ impl Reader<'_> {
         }
     }
 
-    fn set(
+    pub(super) fn set(
         &self,
         group: &mut impl Keyed,
         key: &Spanned<std::borrow::Cow<str>>,
@@ -223,7 +233,7 @@ impl Reader<'_> {
     }
 
     /// A value of the text, whatever it is for.
-    fn value(&self, value: &Spanned<DeValue>, place: &str) -> Result<Value, EditsError> {
+    pub(super) fn value(&self, value: &Spanned<DeValue>, place: &str) -> Result<Value, EditsError> {
         let found = match value.get_ref() {
             DeValue::String(text) => Some(Value::Text(text.to_string())),
             DeValue::Boolean(switch) => Some(Value::Switch(*switch)),

@@ -1,7 +1,10 @@
 use super::*;
 use crate::picture::ToneCurve;
-use crate::scene::{Camera, Layering, Light, LightEdits, Lobes, Material, Polygon, RoughnessMap, SheenModel};
-use glam::{Mat4, Vec3};
+use crate::scene::{
+    Added, Camera, Layering, Light, LightEdits, LightShape, Lobes, Material, Polygon, PunctualEdits, PunctualKind,
+    PunctualLight, PunctualShape, RoughnessMap, SheenModel,
+};
+use glam::{Mat4, Quat, Vec2, Vec3};
 
 /// Materials, lights and cameras whose names repeat, are empty, are numbers, or need care.
 fn scene() -> Scene {
@@ -16,10 +19,18 @@ fn scene() -> Scene {
         ..Light::default()
     };
     let projection = Projection::Perspective { yfov: 0.7, near: 0.1, far: 100.0 };
+    let bulb = |name: &str| PunctualLight {
+        name: name.to_owned(),
+        kind: PunctualKind::Point { range: f32::INFINITY },
+        intensity: Vec3::ONE,
+        position: Vec3::ZERO,
+        direction: Vec3::NEG_Z,
+    };
     let camera = |name: &str| Camera { name: name.to_owned(), world_from_camera: Mat4::IDENTITY, projection };
     Scene {
         materials: names.map(|name| Material::matte(name, Vec3::ONE)).to_vec(),
         lights: ["key", "", "key"].map(light).to_vec(),
+        punctual_lights: ["bulb", "bulb"].map(bulb).to_vec(),
         cameras: ["eye", "eye", "1"].map(camera).to_vec(),
         ..Scene::default()
     }
@@ -42,8 +53,34 @@ fn full() -> Edits {
     let light = LightEdits {
         radiance: Some(Vec3::new(1e30, 16_777_216.0, 0.1)),
         strength: Some(0.0),
+        temperature: Some(2700.5),
+        power: Some(1e-7),
         position: Some(Vec3::new(-1e-30, 1e9, -2.5)),
+        rotation: Some(Quat::from_rotation_y(1.1)),
+        size: Some(Vec2::new(0.1, 1e6)),
+        two_sided: Some(true),
+        on: Some(false),
+        solo: Some(true),
+        removed: Some(false),
     };
+    let punctual = PunctualEdits {
+        intensity: Some(Vec3::new(0.1, 0.2, 1e9)),
+        strength: Some(1.0 / 3.0),
+        temperature: Some(40000.0),
+        power: Some(0.0),
+        position: Some(Vec3::new(0.1, -1e9, 0.0)),
+        direction: Some(Vec3::new(0.0, -3.0, 1e-3)),
+        range: Some(f32::INFINITY),
+        inner: Some(0.0),
+        outer: Some(1.5),
+        on: Some(true),
+        solo: Some(false),
+        removed: Some(true),
+    };
+    let shapes = [LightShape::Rectangle, LightShape::Disk, LightShape::Polygon(7), LightShape::Copy(2)];
+    let added = |shape| Added { name: format!("a \"{shape:?}\""), shape, changes: light };
+    let bare = |shape| Added { name: String::new(), shape, changes: PunctualEdits::default() };
+    use PunctualShape::{Copy, Directional, Point, Spot};
     let orbit = Orbit {
         target: Vec3::new(0.1, -0.2, 3e8),
         azimuth: 6.234_567,
@@ -63,6 +100,9 @@ fn full() -> Edits {
         every_material: material,
         materials: (0..6).map(|index| (index, MaterialEdits { alpha: Some(index as f32 / 7.0), ..material })).collect(),
         lights: (0..3).map(|index| (index, light)).collect(),
+        added_lights: shapes.map(added).to_vec(),
+        punctual: (0..2).map(|index| (index, punctual)).collect(),
+        added_punctual: [Point, Spot, Directional, Copy(1)].map(bare).to_vec(),
     }
 }
 
@@ -140,11 +180,34 @@ fn errors_name_line_and_key() {
             "line 2, index of a material: the scene has no such material; it has 0",
         ),
         ("[[material]]\nname = 'silk'", "line 2, name of a material: the scene has no such material"),
+        ("[[light]]\nindex = 0\nrotation = [0, 0, 0, 2]", "line 3, rotation of light 0: give a unit quaternion"),
+        ("[[light]]\nindex = 0\nsize = [1, 0]", "line 3, size of light 0: give width and height in metres, above 0"),
+        ("[[light]]\nindex = 0\ntemperature = 999", "line 3, temperature of light 0: give kelvin in [1000,40000]"),
+        (
+            "[[punctual-light]]\nindex = 0\ndirection = [0, 0, 0]",
+            "line 3, direction of punctual-light 0: give three numbers that are not all 0",
+        ),
+        ("[[punctual-light]]\nindex = 0\nouter = 2", "line 3, outer of punctual-light 0: give an angle in radians"),
+        ("[[added-light]]\nname = 'x'", "line 1, added-light: give one of shape, copy-of and copy-of-punctual"),
+        ("[[added-light]]\nshape = 'star'", "line 2, added-light: give one of polygon, rectangle, disk"),
+        (
+            "[[added-light]]\nshape = 'polygon'\ncorners = 65",
+            "line 2, added-light: give the polygon's corners, a whole",
+        ),
+        ("[[added-light]]\ncopy-of = 'lamp'", "line 2, added-light: the scene has no such light; it has 0 (key)"),
+        (
+            "[[added-light]]\nshape = 'point'\nradiance = [1, 1, 1]",
+            "line 3, radiance of an added-light: the keys are in",
+        ),
+        ("[added-light]\nshape = 'disk'", "line 1, added-light: give tables: [[added-light]]"),
         ("[[material]]\nalpha = 0.5", "line 1, material: give either its name or its index"),
         ("[[material]]\nname = 'felt'\nindex = 2", "line 1, material: give either its name or its index"),
         ("[[material]]\nindex = 1.5", "line 2, index of a material: give a whole number from 0 up"),
         ("[[light]]\nname = 3", "line 2, name of a light: give a name in quotes"),
-        ("[[light]]\nindex = 1\ncolour = [1, 1, 1]", "line 3, colour of light 1: the keys are radiance, strength and"),
+        (
+            "[[light]]\nindex = 1\ncolour = [1, 1, 1]",
+            "line 3, colour of light 1: the keys are radiance, strength, temperature",
+        ),
         ("[[light]]\nindex = 1\nradiance = [1, -1, 1]", "line 3, radiance of light 1: give three finite numbers"),
         ("[light]\nindex = 1", "line 1, light: give tables: [[light]]"),
         ("light = [1]", "line 1, light: give tables: [[light]]"),
@@ -181,4 +244,14 @@ fn hostile_texts_end_in_an_error() {
         assert!(read(&text).is_err());
     }
     assert!(read("[[light]]\nindex = 99999999999999999999999").is_err());
+}
+
+#[test]
+fn more_lights_than_there_is_room_for_are_refused() {
+    let disks = |count: usize| "[[added-light]]\nshape = \"disk\"\n".repeat(count);
+    // The scene's three have three corners each, a disk 32.
+    assert_eq!(read(&disks(255)).unwrap().added_lights.len(), 255);
+    let refused = read(&disks(256)).unwrap_err();
+    assert_eq!(refused, "line 511, added-light: all lights have at most 8192 corners together; leave some out");
+    assert!(read(&"[[added-light]]\nshape = \"spot\"\n".repeat(1025)).unwrap_err().contains("at most 1024"));
 }

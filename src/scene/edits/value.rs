@@ -157,10 +157,14 @@ impl Value {
     }
 
     fn triple(&self) -> Option<Vec3> {
+        self.numbers().map(Vec3::from_array)
+    }
+
+    /// So many finite numbers.
+    pub(super) fn numbers<const COUNT: usize>(&self) -> Option<[f32; COUNT]> {
         match self {
             Self::Numbers(numbers) => {
-                let triple = <[f32; 3]>::try_from(numbers.as_slice()).ok()?;
-                Some(Vec3::from(triple)).filter(|triple| triple.is_finite())
+                <[f32; COUNT]>::try_from(numbers.as_slice()).ok().filter(|all| all.iter().all(|one| one.is_finite()))
             }
             _ => None,
         }

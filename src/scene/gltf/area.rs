@@ -1,7 +1,5 @@
 //! EXT_lights_area (the draft of 2026): rectangles and disks that shine to one side.
 
-use std::f32::consts::PI;
-
 use glam::{DAffine3, DMat3, DMat4, DVec3, Vec2, Vec3};
 use gltf::json::Root;
 use serde::Deserialize;
@@ -16,9 +14,6 @@ use crate::scene::{Instance, Scene, emitter};
 const EXTENSION: &str = "EXT_lights_area";
 /// The most lights that are drawn: as many rectangles as a scene's corners allow.
 const LIGHTS_MAX: usize = 2048;
-/// A disk is lit and drawn as a regular polygon of so many sides whose area is the disk's; its outline is within 0.4%
-/// of the radius of the circle. docs/accuracy.md has the errors of its form factors. 256 disks fit in a scene.
-const DISK_SIDES: u16 = 32;
 
 #[derive(Deserialize)]
 struct Lights {
@@ -84,19 +79,12 @@ impl Light {
                 let width = positive("the rectangle's width", self.size * self.rect.aspect)? * 0.5;
                 emitter::rectangle(Vec2::new(width, half)).to_vec()
             }
-            "disk" => disk(half, DISK_SIDES),
+            "disk" => emitter::disk(half),
             _ => return Err("type is neither rect nor disk; give one of them".to_owned()),
         };
         let name = cut(self.name.as_deref().unwrap_or_default());
         Ok(Emitter { name, corners, radiance, mesh: None })
     }
-}
-
-/// A regular polygon about the origin with the area of a disk, counter-clockwise.
-fn disk(radius: f32, sides: u16) -> Vec<Vec2> {
-    let angle = 2.0 * PI / f32::from(sides);
-    let reach = radius * (angle / angle.sin()).sqrt();
-    (0..sides).map(|side| reach * Vec2::from_angle(angle * f32::from(side))).collect()
 }
 
 /// Adds an emitter for each light at the scene's visible nodes. All lights are checked, whether placed or not.

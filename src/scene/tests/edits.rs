@@ -204,7 +204,7 @@ fn lights_move_with_their_emitters_and_the_loaded_scene_stays() {
         (Some(Vec3::X), Some(0.0), Vec3::ZERO),
         (Some(Vec3::MAX), Some(2.0), Vec3::MAX),
     ] {
-        let drawn = light(LightEdits { radiance, strength, position: None });
+        let drawn = light(LightEdits { radiance, strength, ..LightEdits::default() });
         let drawn = Drawn::new(&scene, &drawn);
         assert_eq!((drawn.lights[0].radiance, drawn.emission(0)), (expected, expected));
     }

@@ -1,5 +1,6 @@
 //! Lights, views and settings of scenes made in memory.
 
+mod added_lights;
 mod clusters;
 mod drawn;
 mod edits;

@@ -63,7 +63,7 @@ fn section(ui: &mut Ui, state: &mut State, index: usize, few: bool) {
 
 fn light(ui: &mut Ui, state: &mut State, index: usize) {
     let loaded = &state.scene.lights[index];
-    let before = state.edits.of_light(index);
+    let before = state.edits.of_light(&state.scene, index);
     let mut edits = before;
     let glow_before = Glow::new(before.radiance.unwrap_or(loaded.radiance), before.strength);
     let glow_loaded = Glow::new(loaded.radiance, None);

@@ -101,6 +101,7 @@ fn touched() -> Edits {
         radiance: Some(Vec3::new(1.0, 0.25, 0.5)),
         strength: Some(3.0),
         position: Some(Vec3::new(0.1, 0.2, 0.3)),
+        ..crate::scene::LightEdits::default()
     };
     Edits {
         materials: [(0, own)].into(),
@@ -171,7 +172,7 @@ fn a_double_click_puts_sliders_and_swatches_back() {
         let at = window.in_row(row, role)[0].center();
         click_with(&mut window, at, Modifiers::NONE, 2);
         let own = window.state.edits.of_material(0);
-        let light = window.state.edits.of_light(0).radiance;
+        let light = window.state.edits.lights[&0].radiance;
         let is_back = match row {
             "exposure" => window.state.edits.exposure.is_none(),
             "metallic" => own.metallic.is_none(),

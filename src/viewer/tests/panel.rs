@@ -145,7 +145,7 @@ fn boxes_hold_what_is_typed_key_by_key() {
             for axis in 0..3 {
                 let place = window.in_row("position", Role::SpinButton)[axis];
                 window.type_into(place, text);
-                assert_eq!(window.state.edits.of_light(0).position.unwrap()[axis], expected, "{text} {size}");
+                assert_eq!(window.state.edits.lights[&0].position.unwrap()[axis], expected, "{text} {size}");
             }
             let place = window.in_row("radiance", Role::SpinButton)[0];
             window.type_into(place, text.trim_start_matches('-'));
@@ -169,7 +169,7 @@ fn a_drag_of_a_position_is_in_the_scenes_proportion() {
         let mut window = Window::new(scene(size));
         let place = window.in_row("position", Role::SpinButton)[0].center();
         window.drag(PointerButton::Primary, place, place + vec2(100.0, 0.0));
-        let moved = window.state.edits.of_light(0).position.unwrap().x - window.state.scene.lights[0].position().x;
+        let moved = window.state.edits.lights[&0].position.unwrap().x - window.state.scene.lights[0].position().x;
         assert!((0.02..2.0).contains(&(moved / size)), "{moved} m in a scene of {size} m");
     }
 }

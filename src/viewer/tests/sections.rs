@@ -331,7 +331,7 @@ fn a_thousand_lights_are_laid_out_where_they_are_seen() {
     scroll(&mut window, -1e6);
     let radiance = window.in_row("radiance", Role::SpinButton)[0];
     window.type_into(radiance, "3");
-    assert_eq!(window.state.edits.of_light(999).strength, Some(3.0));
+    assert_eq!(window.state.edits.lights[&999].strength, Some(3.0));
     // What is being typed is not lost there.
     window.wait(2.0);
     window.click(radiance.center());
@@ -339,7 +339,7 @@ fn a_thousand_lights_are_laid_out_where_they_are_seen() {
     scroll(&mut window, 1e6);
     assert!(listed(&window).contains(&1) && listed(&window).contains(&1000));
     window.press(Key::Enter);
-    assert_eq!(window.state.edits.of_light(999).strength, Some(5.0));
+    assert_eq!(window.state.edits.lights[&999].strength, Some(5.0));
     window.rest(2);
     assert!(!listed(&window).contains(&1000));
     scroll(&mut window, -1e6);
