@@ -10,8 +10,8 @@ use super::plates::plates;
 use super::shot::Shot;
 
 /// Where changes of the last time are offered, in the strip at the panel's bottom.
-const BRING_BACK: [i16; 2] = [1050, 669];
-const DECLINE: [i16; 2] = [998, 669];
+const BRING_BACK: [i16; 2] = [1050, 628];
+const DECLINE: [i16; 2] = [998, 628];
 
 /// Longer than the least time between two writes.
 const WRITTEN: Duration = Duration::from_millis(2500);

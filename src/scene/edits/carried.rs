@@ -21,7 +21,13 @@ impl<'a> Carrier<'a> {
     /// Compares two versions.
     pub fn new(from: &'a Scene, to: &Scene) -> Self {
         let found = |kind: Kind| found(&kind.names(from), &kind.names(to));
-        Self { from, materials: found(Kind::Material), lights: found(Kind::Light), cameras: found(Kind::Camera) }
+        Self {
+            from,
+            materials: found(Kind::Material),
+            lights: found(Kind::Light),
+            punctual: found(Kind::Punctual),
+            cameras: found(Kind::Camera),
+        }
     }
 
     /// Edits of the one as edits of the other; and what of them has nothing to apply to there, as messages name it: `material felt`.
