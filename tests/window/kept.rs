@@ -16,6 +16,9 @@ const DECLINE: [i16; 2] = [998, 628];
 /// Longer than the least time between two writes.
 const WRITTEN: Duration = Duration::from_millis(2500);
 
+/// Longer than a folder takes to be listed.
+const LISTED: Duration = Duration::from_secs(2);
+
 fn kept(desk: &Desk) -> Vec<String> {
     let entries = std::fs::read_dir(desk.folder.path().join("velour")).into_iter().flatten().flatten();
     let kept = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with("kept-"));
@@ -68,7 +71,7 @@ fn nothing_that_is_kept_stops_a_start() {
     for hostile in [vec![0xff; 1000], vec![b'['; 1 << 20], b"alpha = 7".to_vec()] {
         std::fs::write(file.path(), hostile).unwrap();
         std::fs::write(folder.join("recent.toml"), [0; 100]).unwrap();
-        desk.kill_and_start(&["view".as_ref(), &scene, "--state".as_ref(), "state.toml".as_ref()]);
+        desk.kill_and_start(&["view".as_ref(), &scene]);
         desk.settle();
         desk.click(BRING_BACK);
         desk.settle();
@@ -93,9 +96,9 @@ fn scenes_are_opened_by_keys() {
     };
     let open = |desk: &mut Desk, typed: &str| {
         desk.chord(&[keys::CONTROL], u32::from('o'));
-        desk.settle();
         desk.type_text(typed);
-        desk.settle();
+        // The cursor blinks: it does not rest.
+        std::thread::sleep(LISTED);
     };
     // What is typed is no key of the picture, and Esc leaves all as it is.
     open(&mut desk, "h1f");
@@ -120,7 +123,7 @@ fn scenes_are_opened_by_keys() {
     for _ in 0..2 {
         desk.chord(&[], keys::DOWN);
         desk.chord(&[], keys::ENTER);
-        desk.settle();
+        std::thread::sleep(LISTED);
     }
     is_titled(&mut desk, "plates.gltf");
     desk.close();
@@ -132,7 +135,9 @@ fn files_that_change_are_loaded_again() {
     let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     let scene = plates(folder.path());
-    let mut desk = Desk::new(SIZE, &["view".as_ref(), &scene]);
+    let state = folder.path().join("state.toml");
+    std::fs::write(&state, "shadows = false\n").unwrap();
+    let mut desk = Desk::new(SIZE, &["view".as_ref(), &scene, "--state".as_ref(), &state]);
     desk.settle();
     desk.click(ALPHA_HIGH);
     let alpha = desk.until_state("alpha", |state| state.get("alpha").is_some()).number("alpha");
