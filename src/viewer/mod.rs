@@ -5,6 +5,7 @@
 mod change;
 mod clerk;
 mod commands;
+mod facts;
 mod files;
 mod frame;
 mod frame_time;

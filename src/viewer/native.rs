@@ -19,7 +19,7 @@ use super::state::State;
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
-pub(super) use folders::{absolute, entered, in_full, listed};
+pub(super) use folders::{absolute, entered, in_full, length, listed};
 pub(super) use memory::{age, forget, remember, remembered, tidy};
 pub(super) use watch::Watch;
 

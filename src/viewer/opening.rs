@@ -60,7 +60,7 @@ impl Opening {
     /// What comes of an entry that is taken: a folder is looked into.
     fn enter(&mut self, entry: &Entry) -> Option<Request> {
         if entry.is_folder {
-            (self.typed, self.is_entered) = (native::entered(&entry.path), true);
+            (self.typed, self.is_entered, self.chosen) = (native::entered(&entry.path), true, None);
             return None;
         }
         entry.is_there.then(|| Request::Open(entry.path.clone()))
@@ -156,10 +156,14 @@ fn path(ui: &mut Ui, opening: &mut Opening) -> Option<Request> {
         "The path of a file to open: from the current folder, from / or from ~. Up and Down choose from the list.";
     let response = field.response.response.on_hover_text(about);
     let is_first = opening.asked.is_none();
+    if response.changed() {
+        opening.chosen = None;
+    }
     let mut request = None;
     if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
         request = opening.accept();
-        response.request_focus();
+        // What opens nothing is typed on.
+        opening.is_entered |= request.is_none();
     }
     if std::mem::take(&mut opening.is_entered) || is_first {
         response.request_focus();

@@ -6,6 +6,7 @@ use std::time::Duration;
 use glam::Vec3;
 
 use super::change::Change;
+use super::facts::{self, Fact};
 use super::file_name;
 use super::hands::Hands;
 use super::history::{self, History, Step};
@@ -56,6 +57,8 @@ pub struct State {
     pub keys_shown: bool,
     /// The box to open a scene by, while it lies over the picture.
     pub opening: Option<Opening>,
+    /// What there is to know of the scene.
+    pub facts: Vec<Fact>,
     /// What an earlier run has left of changes to this scene, until the user has decided about it.
     pub offer: Option<Offer>,
     /// The material whose outline is shown for a moment.
@@ -104,6 +107,7 @@ impl State {
             keys_shown: false,
             opening: None,
             offer: None,
+            facts: facts::of(&scene),
             outlined: None,
             hands: Hands::default(),
             history: History::new(&edits),

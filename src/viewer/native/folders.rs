@@ -13,6 +13,11 @@ pub fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
+/// How long a file is, in bytes.
+pub fn length(path: &Path) -> Option<u64> {
+    std::fs::metadata(path).ok().map(|file| file.len())
+}
+
 /// The path that a user means: from the current folder, and `~` is the home folder.
 pub fn in_full(typed: &str) -> PathBuf {
     let home = || etcetera::choose_base_strategy().ok().map(|folders| folders.home_dir().to_owned());

@@ -3,6 +3,7 @@
 use egui::{Button, Label, ScrollArea, Ui};
 
 use super::super::history::is_settled;
+use super::super::opening::Opening;
 use super::super::request::Request;
 use super::super::state::State;
 use super::super::widgets::{About, button};
@@ -48,6 +49,9 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
                      it with --state.";
         if button(ui, about, Button::new("Save state")) {
             request = Some(Request::SaveState);
+        }
+        if button(ui, "Opens another scene, or a state of this one (Ctrl-O).", Button::new("Open")) {
+            Opening::toggle(&mut state.opening);
         }
     });
     ui.add_space(2.0);
