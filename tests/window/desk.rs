@@ -105,19 +105,18 @@ impl Desk {
 
     /// Kills the program, which hears nothing of it, and starts it again on the same display and in the same folder.
     pub fn kill_and_start(&mut self, arguments: &[&Path]) {
-        (self.program.kill().unwrap(), self.program.wait().unwrap());
+        _ = (self.program.kill(), self.program.wait());
         self.program = program(&self.display, &self.folder, arguments);
         self.find_window();
     }
 
-    /// Waits for the window, and gives it all of the screen and the keyboard.
+    /// Waits for the window, and gives it the screen and the keyboard: no window manager would.
     fn find_window(&mut self) {
         let size = self.size;
         self.window = self.until("a window", |desk| desk.find());
         let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
-        let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
+        let place = place.width(size[0].into()).height(size[1].into());
         self.connection.configure_window(self.window, &place).unwrap().check().unwrap();
-        // There is no window manager that would give it the keyboard.
         self.connection.set_input_focus(InputFocus::PARENT, self.window, 0_u32).unwrap().check().unwrap();
         self.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
     }
