@@ -52,7 +52,7 @@ pub use cutout::Cutout;
 pub use drawn::Drawn;
 pub use edits::{
     Added, AddedLight, AddedPunctual, CameraEdit, Carrier, Edits, EditsError, Keyed, Kind, LightEdits, LightShape,
-    MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
+    MOST_CORNERS, MOST_PUNCTUAL, MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
 };
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};

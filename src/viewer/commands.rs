@@ -3,6 +3,8 @@
 use egui::{Popup, Rect, Ui};
 use glam::Vec2;
 
+use super::gizmo;
+use super::grab::Tool;
 use super::history::is_settled;
 use super::opening::Opening;
 use super::request::Request;
@@ -27,6 +29,12 @@ pub enum Command {
     LookFrom([f32; 2]),
     Frame,
     Home,
+    /// The chosen light.
+    Grab(Tool),
+    DuplicateLight,
+    DeleteLight,
+    /// Puts the chosen light's reflection where the pointer is, while it is held.
+    Aim,
     Undo,
     Redo,
     Open,
@@ -48,7 +56,15 @@ impl Command {
     /// Does what keys ask for; what the pointer does is seen to where the pointer is.
     pub fn run(self, ui: &Ui, picture: Rect, state: &mut State) -> Option<Request> {
         match self {
-            Self::Turn | Self::Pan | Self::Zoom | Self::Pick | Self::Centre | Self::Fly(_) => {}
+            Self::Turn | Self::Pan | Self::Zoom | Self::Pick | Self::Centre | Self::Fly(_) | Self::Aim => {}
+            Self::Grab(tool) => gizmo::begin(ui, picture, state, tool),
+            Self::DuplicateLight => {
+                if let Some(light) = state.chosen() {
+                    state.duplicate_light(light);
+                    gizmo::begin(ui, picture, state, Tool::Move);
+                }
+            }
+            Self::DeleteLight => state.chosen().into_iter().for_each(|light| state.remove_light(light)),
             Self::TurnBy([right, down]) => edit_view(state, |orbit| orbit.turn(Vec2::new(right, down))),
             Self::LookFrom([azimuth, elevation]) => edit_view(state, |orbit| orbit.look_from(azimuth, elevation)),
             Self::Frame => {
@@ -69,7 +85,7 @@ impl Command {
             Self::Keys => state.keys_shown = !state.keys_shown,
             Self::Close => {
                 (state.keys_shown, state.opening) = (false, None);
-                (state.sheet, state.sweep) = (None, None);
+                (state.sheet, state.sweep, state.chosen_light) = (None, None, None);
                 Popup::close_all(ui);
             }
         }

@@ -5,6 +5,8 @@ use std::collections::HashSet;
 use egui::{Key, Pos2};
 use glam::Vec3;
 
+use super::grab::Grab;
+use super::lamps::LightId;
 use crate::scene::Orbit;
 
 /// What the pointer and the keys are about in the picture.
@@ -12,6 +14,12 @@ use crate::scene::Orbit;
 pub struct Hands {
     /// The instance that was clicked last.
     pub clicked: Option<usize>,
+    /// The light that is being moved, turned or scaled.
+    pub grab: Option<Grab>,
+    /// Whether a reflection is being put somewhere.
+    pub aims: bool,
+    /// The light whose section in the panel is to be opened.
+    pub revealed: Option<LightId>,
     /// When the outline of what was clicked ends, in egui's time.
     pub outlined_until: f64,
     /// Where the pointer was when something was zoomed to, what that is, and the view that has come of it.

@@ -6,6 +6,7 @@ use std::f32::consts::FRAC_PI_2;
 use egui::{Align2, Context, Event, Id, Key, ModifierNames, Modifiers, PointerButton, vec2};
 
 use super::commands::Command;
+use super::grab::Tool;
 
 /// What the user does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +20,8 @@ pub enum Input {
     Held(Key),
     /// Drags in the picture with at least these modifiers.
     Drag(Modifiers, PointerButton),
+    /// Drags in the picture while this key is held, by its place as above.
+    DragWith(Key),
     /// Turns the wheel or pinches over the picture.
     Wheel,
     Click,
@@ -74,6 +77,12 @@ pub const ROWS: &[Row] = &[
     row(Input::Held(Key::D), Command::Fly([1.0, 0.0, 0.0]), "fly right"),
     row(Input::Held(Key::E), Command::Fly([0.0, 1.0, 0.0]), "fly up"),
     row(Input::Held(Key::Q), Command::Fly([0.0, -1.0, 0.0]), "fly down"),
+    row(press(Key::G), Command::Grab(Tool::Move), "move the chosen light;\nthen X, Y, Z for an axis, or a number"),
+    row(press(Key::R), Command::Grab(Tool::Turn), "turn it"),
+    row(press(Key::S), Command::Grab(Tool::Scale), "scale it"),
+    row(Input::DragWith(Key::L), Command::Aim, "put its reflection below the pointer"),
+    row(Input::Press(Modifiers::SHIFT, Key::D), Command::DuplicateLight, "copy it, and move the copy"),
+    row(press(Key::Delete), Command::DeleteLight, "delete it"),
     row(Input::Press(Modifiers::COMMAND, Key::Z), Command::Undo, "undo; the view stays"),
     row(Input::Press(COMMAND_SHIFT, Key::Z), Command::Redo, "redo"),
     row(Input::Press(Modifiers::COMMAND, Key::Y), Command::Redo, "redo"),
@@ -95,7 +104,7 @@ impl Input {
             Self::Press(_, Key::Questionmark) => pressed == Key::Questionmark,
             Self::Press(wanted, key) => pressed == key && modifiers.matches_exact(wanted),
             Self::Unfocused(key) => pressed == key && modifiers.is_none() && !has_focus,
-            Self::Held(_) | Self::Drag(..) | Self::Wheel | Self::Click | Self::DoubleClick => false,
+            Self::Held(_) | Self::Drag(..) | Self::DragWith(_) | Self::Wheel | Self::Click | Self::DoubleClick => false,
         }
     }
 
@@ -114,6 +123,7 @@ impl Input {
             Self::Drag(modifiers, PointerButton::Primary) => with(modifiers, "drag"),
             Self::Drag(modifiers, PointerButton::Middle) => with(modifiers, "middle drag"),
             Self::Drag(modifiers, _) => with(modifiers, "right drag"),
+            Self::DragWith(key) => format!("{}+drag", key.name()),
             Self::Wheel => "wheel, pinch".to_owned(),
             Self::Click => "click".to_owned(),
             Self::DoubleClick => "double-click".to_owned(),

@@ -27,7 +27,7 @@ impl Default for Layout {
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let outlined = state.outlined;
     // Before the panel, where a key may end what is typed.
-    let mut commands = keys::pressed(ui);
+    let mut commands = if state.hands.grab.is_some() { Vec::new() } else { keys::pressed(ui) };
     if state.opening.is_some() {
         // The box has the keyboard to itself.
         commands.retain(|command| matches!(command, Command::Open | Command::Close));

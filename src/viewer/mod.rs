@@ -2,6 +2,8 @@
 //!
 //! The picture is beside the panel, never under it, and is drawn only when something has changed.
 
+mod adding;
+mod aim;
 mod change;
 mod clerk;
 mod commands;
@@ -9,11 +11,15 @@ mod facts;
 mod files;
 mod frame;
 mod frame_time;
+mod gizmo;
+mod grab;
 mod hands;
 mod history;
 mod kept;
 mod keys;
+mod lamps;
 mod layout;
+mod lens;
 mod loading;
 mod native;
 mod navigate;

@@ -6,9 +6,10 @@ use egui::{PointerButton, Pos2, Rect, Response, Sense, Ui};
 use glam::{Vec2, Vec3};
 
 use super::commands::{Command, edit_view};
-use super::keys;
+use super::lamps::LightId;
 use super::pick::{Picked, Ray, bounds, pick};
 use super::state::State;
+use super::{aim, gizmo, keys};
 use crate::scene::Bounds;
 
 /// For how long the outline of what was clicked is shown, seconds.
@@ -30,7 +31,9 @@ const LONGEST: f64 = 0.25;
 impl State {
     /// The box of what was clicked last, as it is drawn; none where nothing was.
     pub fn clicked_bounds(&self) -> Option<Bounds> {
-        self.hands.clicked.map(|instance| bounds(&self.drawn(), instance))
+        let drawn = self.drawn();
+        let there = self.hands.clicked.filter(|instance| *instance < drawn.instances.len());
+        there.map(|instance| bounds(&drawn, instance))
     }
 
     /// What is seen at a point of the picture.
@@ -53,11 +56,15 @@ fn place(picture: Rect, at: Pos2) -> Vec2 {
 /// Applies what the pointer does in the picture.
 pub fn show(ui: &Ui, picture: Rect, state: &mut State) {
     let response = ui.interact(picture, ui.scope_id().with("picture"), Sense::click_and_drag());
-    if !fly(ui, &response, picture, state) {
-        drag(ui, &response, picture, state);
+    keys::follow_held(ui, &mut state.hands.keys);
+    // A light in the hand has the pointer to itself.
+    if !gizmo::show(ui, &response, picture, state) && !aim::show(ui, &response, picture, state) {
+        if !fly(ui, &response, picture, state) {
+            drag(ui, &response, picture, state);
+        }
+        click(ui, &response, picture, state);
     }
     wheel(ui, &response, picture, state);
-    click(ui, &response, picture, state);
     end_outline(ui, state);
 }
 
@@ -74,7 +81,6 @@ pub fn take_focus(ui: &Ui, picture: Rect) {
 /// released. Whether it does.
 fn fly(ui: &Ui, response: &Response, picture: Rect, state: &mut State) -> bool {
     let is_held = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.secondary_down());
-    keys::follow_held(ui, &mut state.hands.keys);
     let step = keys::flight(ui, &state.hands.keys);
     let now = ui.input(|input| input.time);
     if !is_held || (step.is_none() && state.hands.flying.is_none()) {
@@ -158,14 +164,23 @@ fn anchor(state: &State, picture: Rect, at: Pos2) -> Vec3 {
 fn click(ui: &Ui, response: &Response, picture: Rect, state: &mut State) {
     let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
     let Some(picked) = state.picked(picture, at) else {
-        (state.hands.clicked, state.outlined) = (None, None);
+        (state.hands.clicked, state.outlined, state.chosen_light) = (None, None, None);
         return;
     };
+    let light = state.drawn().light_index(picked.instance).map(LightId::Area);
+    match light {
+        Some(light) => state.choose(light),
+        None => state.chosen_light = None,
+    }
     if response.double_clicked() {
         let bounds = bounds(&state.drawn(), picked.instance);
         edit_view(state, |orbit| orbit.centre(picked.point, &bounds, picture.aspect_ratio()));
     }
     state.hands.clicked = Some(picked.instance);
+    if picked.material >= state.scene.materials.len() {
+        // An added light's, which is no material of the scene.
+        return;
+    }
     (state.material, state.outlined) = (picked.material, Some(picked.material));
     state.hands.outlined_until = ui.input(|input| input.time) + OUTLINED;
 }

@@ -32,6 +32,8 @@ pub struct Picked {
     pub material: usize,
     /// In the world, metres.
     pub point: Vec3,
+    /// Of the surface there as it is shaded but for normal maps, unit, to its front.
+    pub normal: Vec3,
 }
 
 impl Ray {
@@ -53,6 +55,23 @@ impl Ray {
             direction: world_from_camera.transform_vector3(direction),
             depths: near.into()..far.into(),
         }
+    }
+
+    /// Where along a line through a point it passes that nearest, metres; none where they are nearly parallel.
+    pub fn along(&self, point: Vec3, axis: Vec3) -> Option<f32> {
+        let (axis, direction) = (axis.as_dvec3().normalize(), self.direction.normalize());
+        let between = point.as_dvec3() - self.origin;
+        let cosine = axis.dot(direction);
+        let square = 1.0 - cosine * cosine;
+        (square > 1e-4).then(|| ((cosine * direction - axis).dot(between) / square) as f32)
+    }
+
+    /// Where it meets a plane; none where that is nearly edge-on, or behind.
+    pub fn on_plane(&self, point: Vec3, normal: Vec3) -> Option<Vec3> {
+        let (normal, direction) = (normal.as_dvec3().normalize(), self.direction.normalize());
+        let slope = direction.dot(normal);
+        let distance = (point.as_dvec3() - self.origin).dot(normal) / slope;
+        (slope.abs() > 1e-3 && distance > 0.0).then(|| (self.origin + distance * direction).as_vec3())
     }
 
     /// Its point at this depth.
@@ -113,7 +132,7 @@ impl Ray {
 /// What the ray meets first of what is drawn. Back faces that are culled, what is hidden, and holes that are cut out let
 /// it through; what is blended stops it, unless it is wholly transparent.
 pub fn pick(drawn: &Drawn, ray: &Ray) -> Option<Picked> {
-    let mut nearest: Option<(f64, usize)> = None;
+    let mut nearest: Option<(Met, usize)> = None;
     let shown = (0..drawn.instances.len()).filter(|&instance| drawn.is_drawn(instance));
     // Instances of a mesh often follow each other.
     let mut boxed: Option<(usize, Bounds)> = None;
@@ -126,20 +145,21 @@ pub fn pick(drawn: &Drawn, ray: &Ray) -> Option<Picked> {
         };
         boxed = Some((placed.mesh, bounds));
         let mut ray = ray.transformed(&placed.world_from_mesh.as_dmat4().inverse());
-        if let Some((depth, _)) = nearest {
-            ray.depths.end = depth;
+        if let Some((met, _)) = &nearest {
+            ray.depths.end = met.depth;
         }
         if !ray.meets(&bounds) {
             continue;
         }
         let culled = !drawn.is_double_sided(instance);
         let surface = Surface { drawn, mesh, material: &drawn.materials[mesh.material], culled };
-        nearest = surface.nearest(&ray).map(|depth| (depth, instance)).or(nearest);
+        nearest = surface.nearest(&ray).map(|met| (met, instance)).or(nearest);
     }
-    nearest.map(|(depth, instance)| Picked {
+    nearest.map(|(met, instance)| Picked {
         instance,
         material: drawn.mesh_of(instance).material,
-        point: ray.point(depth).as_vec3(),
+        point: ray.point(met.depth).as_vec3(),
+        normal: (drawn.instances[instance].world_from_normal() * met.normal.as_vec3()).normalize_or(Vec3::Y),
     })
 }
 
@@ -158,6 +178,13 @@ pub fn bounds(drawn: &Drawn, instance: usize) -> Bounds {
     Bounds::of_points(&drawn.mesh(placed.mesh).positions).transformed(placed.world_from_mesh)
 }
 
+/// Where a ray meets a mesh.
+struct Met {
+    depth: f64,
+    /// In the mesh's space.
+    normal: DVec3,
+}
+
 /// A mesh and what it is made of.
 struct Surface<'a> {
     drawn: &'a Drawn<'a>,
@@ -168,18 +195,29 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// The least depth at which a ray in the mesh's space meets it. There front faces are counter-clockwise, whatever
+    /// Where a ray in the mesh's space meets it first. There front faces are counter-clockwise, whatever
     /// becomes of them in the world.
-    fn nearest(&self, ray: &Ray) -> Option<f64> {
+    fn nearest(&self, ray: &Ray) -> Option<Met> {
         let of_chunk = |indices: &[u32]| {
             let depths = indices.as_chunks::<3>().0.iter().filter_map(|corners| {
                 let places = corners.map(|at| self.mesh.positions[at as usize].as_dvec3());
                 let (depth, weights) = ray.meeting(places, self.culled)?;
-                self.is_there(corners, weights).then_some(depth)
+                self.is_there(corners, weights).then_some((depth, *corners, weights))
             });
-            depths.min_by(f64::total_cmp)
+            depths.min_by(|one, other| one.0.total_cmp(&other.0))
         };
-        self.mesh.indices.par_chunks(3 * CHUNK).filter_map(of_chunk).min_by(f64::total_cmp)
+        let met = self.mesh.indices.par_chunks(3 * CHUNK).filter_map(of_chunk);
+        let (depth, corners, weights) = met.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        Some(Met { depth, normal: self.normal(&corners, weights) })
+    }
+
+    /// The interpolated normal, or the triangle's.
+    fn normal(&self, corners: &[u32; 3], weights: DVec3) -> DVec3 {
+        let normals =
+            corners.map(|at| self.mesh.normals.get(at as usize).map_or(DVec3::ZERO, |normal| normal.as_dvec3()));
+        let smooth = weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2];
+        let [a, b, c] = corners.map(|at| self.mesh.positions[at as usize].as_dvec3());
+        smooth.try_normalize().unwrap_or_else(|| (b - a).cross(c - a).normalize_or_zero())
     }
 
     /// Whether anything of it is at a point of a triangle.

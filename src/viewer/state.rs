@@ -11,6 +11,7 @@ use super::file_name;
 use super::hands::Hands;
 use super::history::{self, History, Step};
 use super::kept::Offer;
+use super::lamps::LightId;
 use super::native;
 use super::opening::Opening;
 use super::order::Shot;
@@ -30,6 +31,8 @@ pub struct State {
     pub shown: Edits,
     /// The material that the panel shows.
     pub material: usize,
+    /// The light whose handles are in the picture.
+    pub chosen_light: Option<LightId>,
     /// What the renderer has to say of the view that it drew last.
     pub notice: Option<String>,
     /// Samples that the picture's shadows have so far, and how many there will be; none where it has no shadows.
@@ -93,6 +96,7 @@ impl State {
         Self {
             name: name.to_owned(),
             material: shown.unwrap_or(0),
+            chosen_light: None,
             notice: None,
             samples: None,
             loading: None,
@@ -228,7 +232,7 @@ impl State {
 
     /// Whether a change has come to its end: nothing is held, typed or swept.
     pub fn is_settled(&self, context: &egui::Context) -> bool {
-        self.sweep.is_none() && history::is_settled(context)
+        self.sweep.is_none() && self.hands.grab.is_none() && history::is_settled(context)
     }
 
     /// Whether there is a change that can be taken back: a sweep is one, while it lasts.

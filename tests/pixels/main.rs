@@ -1,5 +1,6 @@
 //! Pictures, made as users make them: by the whole pipeline on a device, and by the binary.
 
+mod added_lights;
 mod bad_input;
 mod base;
 mod blended;

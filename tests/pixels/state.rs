@@ -51,6 +51,7 @@ fn what_the_viewer_saves_is_what_it_showed() {
         radiance: Some([1.0, 0.7, 0.3].into()),
         strength: Some(7.77),
         position: Some(scene.lights[0].position() + glam::Vec3::new(0.1, 0.3, -0.2)),
+        ..LightEdits::default()
     };
     let velvet = MaterialEdits { alpha: Some(1.0 / 3.0), metallic: Some(0.1), ..MaterialEdits::default() };
     let edits = Edits {

@@ -64,11 +64,17 @@ pub struct PunctualEdits {
     pub removed: Option<bool>,
 }
 
+/// The most corners of all polygon lights of a scene together, those that are added among them.
+pub const MOST_CORNERS: usize = crate::scene::lights::CORNERS_MAX;
+/// The most lights without extent that are added.
+pub const MOST_PUNCTUAL: usize = 1024;
+
 /// A light that the file does not have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Added<Shape, Changes> {
     /// What users call it; may be empty.
     pub name: String,
+    /// What it is before it is changed.
     pub shape: Shape,
     /// What makes it other than all of its shape are.
     pub changes: Changes,
@@ -83,6 +89,7 @@ pub type AddedPunctual = Added<PunctualShape, PunctualEdits>;
 /// 1, to one side, and is 1 m wide and high.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightShape {
+    /// A square.
     Rectangle,
     /// A regular polygon of 32 sides with the area of the disk that is as wide and high.
     Disk,
@@ -96,8 +103,11 @@ pub enum LightShape {
 /// intensity or irradiance of 1, however far, and where it is a spot fully to 30 degrees and to nothing at 45.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PunctualShape {
+    /// It shines in all directions.
     Point,
+    /// It shines into a cone.
     Spot,
+    /// It shines from infinitely far away.
     Directional,
     /// As the light of this index was loaded.
     Copy(usize),
@@ -179,7 +189,7 @@ impl PunctualEdits {
     }
 
     /// What they make of a light, but for whether it is lit.
-    pub(in crate::scene) fn applied(&self, light: &PunctualLight) -> PunctualLight {
+    pub fn applied(&self, light: &PunctualLight) -> PunctualLight {
         let kind = match light.kind {
             PunctualKind::Point { range } => PunctualKind::Point { range: self.range.unwrap_or(range) },
             PunctualKind::Spot { range, inner, outer } => {

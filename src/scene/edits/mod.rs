@@ -22,7 +22,9 @@ use crate::picture::{Exposure, ToneCurve};
 
 pub use carried::Carrier;
 pub use keys::Keyed;
-pub use light::{Added, AddedLight, AddedPunctual, LightEdits, LightShape, PunctualEdits, PunctualShape};
+pub use light::{
+    Added, AddedLight, AddedPunctual, LightEdits, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualEdits, PunctualShape,
+};
 pub use selection::{Kind, UnknownThing, select};
 pub use text::EditsError;
 pub use value::Value;

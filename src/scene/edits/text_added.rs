@@ -5,18 +5,14 @@ use toml::de::{DeTable, DeValue};
 
 use super::selection::{indexed, named};
 use super::text::{EditsError, Reader, reference_to, write_keys};
-use super::{Added, Edits, Keyed, Kind, LightShape, PunctualShape, Value};
+use super::{Added, Edits, Keyed, Kind, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualShape, Value};
 use crate::scene::Scene;
-use crate::scene::lights::CORNERS_MAX;
 
 /// The table of such a light, and how messages call one.
 pub(super) const ADDED: &str = "added-light";
 
 /// What is read before the keys of its kind.
 const SHAPE_KEYS: [&str; 5] = ["name", "shape", "corners", "copy-of", "copy-of-punctual"];
-
-/// The most lights without extent that are added.
-const PUNCTUAL_MAX: usize = 1024;
 
 /// Shapes without further numbers, by name.
 const SHAPES: [(&str, Shape); 5] = [
@@ -81,16 +77,16 @@ impl Reader<'_> {
                 Shape::Area(shape) => {
                     let changes = self.changes(table)?;
                     edits.added_lights.push(Added { name, shape, changes });
-                    if edits.corner_count(self.scene) > CORNERS_MAX {
-                        let what = format!("all lights have at most {CORNERS_MAX} corners together; leave some out");
+                    if edits.corner_count(self.scene) > MOST_CORNERS {
+                        let what = format!("all lights have at most {MOST_CORNERS} corners together; leave some out");
                         return Err(self.error(start, place(), what));
                     }
                 }
                 Shape::Punctual(shape) => {
                     let changes = self.changes(table)?;
                     edits.added_punctual.push(Added { name, shape, changes });
-                    if edits.added_punctual.len() > PUNCTUAL_MAX {
-                        let what = format!("at most {PUNCTUAL_MAX} lights without extent are added; leave some out");
+                    if edits.added_punctual.len() > MOST_PUNCTUAL {
+                        let what = format!("at most {MOST_PUNCTUAL} lights without extent are added; leave some out");
                         return Err(self.error(start, place(), what));
                     }
                 }

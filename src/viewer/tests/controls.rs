@@ -17,7 +17,8 @@ const TOUCHED: [Role; 8] = [
 
 /// Whether a control has a value: buttons and folds have none, but for those that stand for one of several values.
 fn has_value(name: &str) -> bool {
-    let is_choice = ["neutral", "AgX", "none"].iter().any(|choice| name.contains(&format!("\"{choice}\"")));
+    let is_choice =
+        ["neutral", "AgX", "none", "one side", "both"].iter().any(|choice| name.contains(&format!("\"{choice}\"")));
     // Which material is shown is no part of any.
     let is_list = name.contains("0 velvet");
     is_choice || !(name.starts_with("Button") || name.starts_with("Disclosure") || is_list)
@@ -100,10 +101,21 @@ fn touched() -> Edits {
     let light = crate::scene::LightEdits {
         radiance: Some(Vec3::new(1.0, 0.25, 0.5)),
         strength: Some(3.0),
+        temperature: Some(2700.0),
+        power: Some(10.0),
         position: Some(Vec3::new(0.1, 0.2, 0.3)),
+        rotation: Some(glam::Quat::from_euler(glam::EulerRot::YXZ, 0.1, 0.2, 0.3)),
+        size: Some(glam::Vec2::new(0.3, 0.4)),
+        two_sided: Some(true),
         ..crate::scene::LightEdits::default()
     };
+    let studio = crate::scene::Added {
+        name: "studio key light".to_owned(),
+        shape: crate::scene::LightShape::Rectangle,
+        changes: light,
+    };
     Edits {
+        added_lights: vec![studio],
         materials: [(0, own)].into(),
         lights: [(0, light)].into(),
         exposure: Some(1.5.into()),

@@ -1,7 +1,9 @@
 //! Each key of the table has its effect, and none while a text is typed.
 
 use super::super::commands::Command;
+use super::super::grab::Tool;
 use super::super::keys::{Input, ROWS};
+use super::super::lamps::LightId;
 use super::super::panel;
 use super::*;
 
@@ -11,6 +13,8 @@ struct Snapshot {
     edits: Edits,
     flags: [bool; 3],
     request: Option<Request>,
+    /// What is done with the light in the hand.
+    tool: Option<Tool>,
 }
 
 /// A window in which every key has something to do, by a press with these modifiers.
@@ -22,10 +26,12 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.pass(vec![]);
     window.state.undo();
     window.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 330.0));
+    window.state.chosen_light = Some(LightId::Area(0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, opening, .. } = window.state;
-    Snapshot { edits, flags: [panel_hidden, keys_shown, opening.is_some()], request }
+    let State { edits, panel_hidden, keys_shown, opening, hands, .. } = window.state;
+    let flags = [panel_hidden, keys_shown, opening.is_some()];
+    Snapshot { edits, flags, request, tool: hands.grab.map(|grab| grab.tool) }
 }
 
 #[test]
@@ -52,13 +58,17 @@ fn each_key_has_its_effect() {
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
             Command::Panel => found.flags == [true, false, false],
             Command::Keys => found.flags == [false, true, false],
+            Command::Grab(tool) => found.tool == Some(tool) && found.edits.lights.is_empty(),
+            Command::DuplicateLight => found.tool == Some(Tool::Move) && found.edits.added_lights.len() == 1,
+            Command::DeleteLight => found.edits.lights[&0].removed == Some(true),
             Command::Home => found.edits.camera.is_none() && nothing.edits.camera.is_some(),
             Command::TurnBy(_) | Command::LookFrom(_) | Command::Frame => {
                 found.edits.camera.is_some() && found.edits.camera != nothing.edits.camera
             }
             // Has a test of its own.
             Command::Close => true,
-            Command::Turn | Command::Pan | Command::Zoom | Command::Pick | Command::Centre | Command::Fly(_) => false,
+            Command::Turn | Command::Pan | Command::Zoom | Command::Pick => false,
+            Command::Centre | Command::Fly(_) | Command::Aim => false,
         };
         assert!(is_right, "{row:?}: {found:?}");
     }

@@ -6,6 +6,7 @@ mod files;
 mod flight;
 mod hands;
 mod keyboard;
+mod lights;
 mod opening;
 mod panel;
 mod picking_colors;
