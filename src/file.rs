@@ -3,6 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+/// How the names of files begin that have not got their own yet.
+pub(crate) const TEMPORARY: &str = ".velour-";
+
 /// A file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
@@ -74,7 +77,7 @@ fn temporary_beside(path: &Path) -> Result<tempfile::NamedTempFile, WriteError> 
         return Err(WriteError::NoFolder { path: path.to_owned() });
     }
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".velour-");
+    builder.prefix(TEMPORARY);
     // Like any new file: what the user's umask leaves of it, not tempfile's owner-only default.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

@@ -51,8 +51,8 @@ pub use camera::{Camera, Projection};
 pub use cutout::Cutout;
 pub use drawn::Drawn;
 pub use edits::{
-    Added, AddedLight, AddedPunctual, CameraEdit, Edits, EditsError, Keyed, Kind, LightEdits, LightShape, MOST_CORNERS,
-    MOST_PUNCTUAL, MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
+    Added, AddedLight, AddedPunctual, CameraEdit, Carrier, Edits, EditsError, Keyed, Kind, LightEdits, LightShape,
+    MOST_CORNERS, MOST_PUNCTUAL, MaterialEdits, PunctualEdits, PunctualShape, UnknownThing, Value, select,
 };
 pub use error::SceneError;
 pub use light::{Light, Polygon, PunctualKind, PunctualLight};

@@ -6,6 +6,7 @@ use glam::Vec2;
 use super::gizmo;
 use super::grab::Tool;
 use super::history::is_settled;
+use super::opening::Opening;
 use super::request::Request;
 use super::saving::Wish;
 use super::state::State;
@@ -39,6 +40,8 @@ pub enum Command {
     Redo,
     SavePicture,
     SavePictureAs,
+    Open,
+    Reload,
     SaveState,
     CopyPicture,
     Panel,
@@ -81,14 +84,15 @@ impl Command {
             }
             Self::SavePictureAs => state.saving.open(),
             Self::CopyPicture => return Some(Request::CopyCommand),
+            Self::Open => Opening::toggle(&mut state.opening),
+            Self::Reload => return Some(Request::Reload),
             Self::SaveState => return Some(Request::SaveState),
             Self::Fullscreen => return Some(Request::Fullscreen),
             Self::Panel => state.panel_hidden = !state.panel_hidden,
             Self::Keys => state.keys_shown = !state.keys_shown,
             Self::Close => {
-                state.keys_shown = false;
-                (state.sheet, state.sweep, state.saving.form) = (None, None, None);
-                state.chosen_light = None;
+                (state.keys_shown, state.opening, state.saving.form) = (false, None, None);
+                (state.sheet, state.sweep, state.chosen_light) = (None, None, None);
                 Popup::close_all(ui);
             }
         }

@@ -3,7 +3,7 @@
 
 use egui::Context;
 
-use crate::scene::Edits;
+use crate::scene::{Carrier, Edits};
 
 /// Most steps that can be undone.
 const MOST: usize = 1000;
@@ -44,6 +44,21 @@ impl History {
         self.steps.push(Step { edits: edits.clone(), metered });
         self.steps.drain(..self.steps.len().saturating_sub(MOST + 1));
         self.now = self.steps.len() - 1;
+    }
+
+    /// The same steps of another version of the scene. What has nothing to apply to there is no change any more.
+    pub fn carried(&self, carrier: &Carrier) -> Self {
+        let mut steps: Vec<Step> = Vec::new();
+        let mut now = 0;
+        for (index, step) in self.steps.iter().enumerate() {
+            let step = Step { edits: carrier.carry(&step.edits).0, metered: step.metered };
+            let is_other = steps.last().is_none_or(|last| *last != step);
+            steps.extend(is_other.then_some(step));
+            if index == self.now {
+                now = steps.len() - 1;
+            }
+        }
+        Self { steps, now }
     }
 
     /// Whether there is a step before this one.

@@ -86,6 +86,8 @@ pub const ROWS: &[Row] = &[
     row(Input::Press(Modifiers::COMMAND, Key::Z), Command::Undo, "undo; the view stays"),
     row(Input::Press(COMMAND_SHIFT, Key::Z), Command::Redo, "redo"),
     row(Input::Press(Modifiers::COMMAND, Key::Y), Command::Redo, "redo"),
+    row(Input::Press(Modifiers::COMMAND, Key::O), Command::Open, "open a scene"),
+    row(Input::Press(Modifiers::COMMAND, Key::R), Command::Reload, "load the scene's file again"),
     row(Input::Press(Modifiers::COMMAND, Key::S), Command::SaveState, "save the state"),
     row(press(Key::P), Command::SavePicture, "save the picture, as the last one was saved"),
     row(Input::Press(COMMAND_SHIFT, Key::S), Command::SavePictureAs, "save the picture in another size or place"),

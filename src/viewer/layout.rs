@@ -3,10 +3,11 @@
 use egui::{Align2, Area, Id, Rect, Ui};
 
 use super::change::Change;
+use super::commands::Command;
 use super::frame::pixel_size;
 use super::request::Request;
 use super::state::State;
-use super::{files, keys, navigate, panel, saving, sheet_view};
+use super::{files, keys, navigate, opening, panel, saving, sheet_view};
 
 /// The outcome of a pass over the user interface.
 pub struct Layout {
@@ -27,7 +28,11 @@ impl Default for Layout {
 pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     let outlined = state.outlined;
     // Before the panel, where a key may end what is typed.
-    let commands = if state.hands.grab.is_some() { Vec::new() } else { keys::pressed(ui) };
+    let mut commands = if state.hands.grab.is_some() { Vec::new() } else { keys::pressed(ui) };
+    if state.opening.is_some() {
+        // The box has the keyboard to itself.
+        commands.retain(|command| matches!(command, Command::Open | Command::Close));
+    }
     panel::sweep(ui, state);
     let area = ui.available_rect_before_wrap();
     fold(area, state);
@@ -50,6 +55,7 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Layout {
     if state.keys_shown {
         state.keys_shown = keys::show(ui);
     }
+    request = opening::show(ui, picture, &mut state.opening).or(request);
     request = files::show(ui).or(request);
     if is_narrow(area) {
         fold_button(ui, picture, state);

@@ -6,6 +6,7 @@ use std::time::Duration;
 use egui::{Align2, Ui};
 
 use super::file_name;
+use super::kept::Offer;
 use super::native::{self, Instant, Task};
 use super::state::State;
 use crate::scene::{Edits, Scene};
@@ -31,7 +32,12 @@ impl Loading {
         let (said, name) = (stage.clone(), name.to_owned());
         let say = move |now| *said.lock().unwrap_or_else(PoisonError::into_inner) = now;
         let of = name.clone();
-        let work = move || load(&say).map(|(scene, edits)| State::new(&of, scene, edits));
+        let work = move || {
+            let (scene, edits) = load(&say)?;
+            let mut state = State::new(&of, scene, edits);
+            state.offer = Offer::of(&state);
+            Ok(state)
+        };
         Self { name, task: Task::start(work), stage, since: native::now() }
     }
 

@@ -3,11 +3,13 @@
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 mod display;
+mod folders;
 mod keeping;
 mod losing;
 mod memory;
 mod places;
 mod quietly;
+mod watch;
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -18,12 +20,14 @@ use super::state::State;
 
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
+pub(super) use folders::{absolute, entered, in_full, length, listed};
 pub(super) use keeping::{Job, Keeper, Means};
 pub(super) use losing::lose_as_asked;
-pub(super) use memory::{forget, remember, remembered};
+pub(super) use memory::{age, forget, remember, remembered, tidy};
 pub(super) use places::{folder, free_name, place};
 use places::{numbered_place, write};
 pub(super) use quietly::quietly;
+pub(super) use watch::Watch;
 
 /// A point in time.
 pub(super) use std::time::Instant;
@@ -147,7 +151,7 @@ pub(super) fn save_state(state: &State) -> String {
 }
 
 /// Control characters would end the comment that a name stands in.
-fn one_line(name: &str) -> String {
+pub(super) fn one_line(name: &str) -> String {
     name.chars().filter(|character| !character.is_control()).collect()
 }
 

@@ -19,4 +19,12 @@ pub enum Request {
     Fullscreen,
     /// A file in place of what is there: another scene, or a state of this one.
     Open(PathBuf),
+    /// Files that may be meant by what has been typed.
+    List(String),
+    /// The scene anew, from its file.
+    Reload,
+    /// The changes of an earlier run to this scene.
+    BringBack,
+    /// None of them, and never again.
+    Decline,
 }

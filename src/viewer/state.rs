@@ -6,16 +6,21 @@ use std::time::Duration;
 use glam::Vec3;
 
 use super::change::Change;
+use super::facts::{self, Fact};
+use super::file_name;
 use super::hands::Hands;
 use super::history::{self, History, Step};
+use super::kept::Offer;
 use super::lamp::LightId;
+use super::native;
+use super::opening::Opening;
 use super::order::Shot;
 use super::pick;
 use super::saving::Saving;
 use super::sheet::Sheet;
 use super::sweep::Sweep;
 use crate::picture::Exposure;
-use crate::scene::{Bounds, Camera, CameraEdit, Drawn, Edits, Orbit, Scene, Settings};
+use crate::scene::{Bounds, Camera, CameraEdit, Carrier, Drawn, Edits, Orbit, Scene, Settings};
 
 /// The scene as it was loaded, and what the user changes in it.
 pub struct State {
@@ -56,6 +61,12 @@ pub struct State {
     pub panel_hidden: bool,
     /// Whether the list of keys lies over the picture.
     pub keys_shown: bool,
+    /// The box to open a scene by, while it lies over the picture.
+    pub opening: Option<Opening>,
+    /// What there is to know of the scene.
+    pub facts: Vec<Fact>,
+    /// What an earlier run has left of changes to this scene, until the user has decided about it.
+    pub offer: Option<Offer>,
     /// The material whose outline is shown for a moment.
     pub outlined: Option<usize>,
     /// What the pointer and the keys are about in the picture.
@@ -102,6 +113,9 @@ impl State {
             sheet: None,
             panel_hidden: false,
             keys_shown: false,
+            opening: None,
+            offer: None,
+            facts: facts::of(&scene),
             outlined: None,
             hands: Hands::default(),
             history: History::new(&edits),
@@ -122,8 +136,35 @@ impl State {
         self.hands.is_narrow = before.hands.is_narrow;
         self.messages = std::mem::take(&mut before.messages);
         self.saving = std::mem::take(&mut before.saving);
+        self.opening = before.opening.take();
         // Nothing goes on below another scene.
         (before.sheet, before.sweep, before.outlined, before.loading) = (None, None, None, None);
+    }
+
+    /// The same scene as it is in its file by now: the changes that still apply are carried over, those before them, too. Returns what to
+    /// say of it.
+    pub fn come_after(&mut self, before: &Self) -> String {
+        let carrier = Carrier::new(&before.scene, &self.scene);
+        let (edits, lost) = carrier.carry(&before.edits);
+        self.history = before.history.carried(&carrier);
+        self.material = carrier.material(before.material).unwrap_or(self.material);
+        (self.edits, self.metered, self.offer) = (edits, before.metered, before.offer.clone());
+        self.shown.clone_from(&self.edits);
+        let name = native::one_line(file_name(&self.name));
+        match lost.len() {
+            0 => format!("reloaded {name}"),
+            1 => format!("reloaded {name}; a change had nothing to apply to: {}", lost[0]),
+            count => format!("reloaded {name}; {count} changes had nothing to apply to: {}", lost.join(", ")),
+        }
+    }
+
+    /// Takes over the changes that an earlier run has left.
+    pub fn bring_back(&mut self) {
+        let Some(offer) = self.offer.take() else { return };
+        match Edits::from_text(&offer.text, &self.scene) {
+            Ok(edits) => (self.edits, self.metered) = (edits, None),
+            Err(why) => self.say(format!("your last changes do not fit this scene any more: {why}")),
+        }
     }
 
     /// The scene as it is drawn.

@@ -21,6 +21,7 @@ use super::loading::{self, Loading};
 use super::native::{self, Instant, Keeper};
 use super::open::{Open, REST};
 use super::request::Request;
+use super::shelf::Shelf;
 use super::state::State;
 use super::{file_name, window_size, wishes};
 use crate::renderer::RenderError;
@@ -41,6 +42,11 @@ pub(super) struct App {
     files: Box<dyn Files>,
     /// While a scene is on its way, the first one or another.
     loading: Option<Loading>,
+    /// Whether that is the one that is shown, anew,
+    is_reloading: bool,
+    /// and what was said where that has failed.
+    complaint: Option<String>,
+    shelf: Shelf,
     /// From the first scene on.
     state: Option<State>,
     /// That of the scene before, until the painter has taken the one that is shown.
@@ -63,9 +69,13 @@ impl App {
     pub fn new((loading, files): (Loading, Box<dyn Files>), table: SheenTable, wake: EventLoopProxy<()>) -> Self {
         let (loading, table, keeper) = (Some(loading), Arc::new(table), Keeper::default());
         let (losses, lost, reopen_at) = (Losses::default(), None, None);
+        let shelf = Shelf::new(wake.clone());
         Self {
             files,
             loading,
+            is_reloading: false,
+            complaint: None,
+            shelf,
             state: None,
             before: None,
             table,
@@ -107,20 +117,44 @@ impl App {
     /// Takes the scene where it is there after so long at most. Another one that cannot be loaded leaves what is there.
     fn receive_scene(&mut self, patience: Duration) -> Result<(), ViewerError> {
         let Some(loading) = self.loading.take_if(|loading| loading.is_done_within(patience)) else { return Ok(()) };
+        let is_reloading = std::mem::take(&mut self.is_reloading);
         match (loading.state(), &mut self.state) {
-            (Ok(state), _) => self.show(state),
-            (Err(why), Some(state)) => state.say(why),
+            (Ok(mut state), before) => {
+                if let Some(before) = before.as_mut().filter(|_| is_reloading) {
+                    let said = state.come_after(before);
+                    let complaint = self.complaint.take();
+                    before.messages.retain(|said| Some(said) != complaint.as_ref());
+                    before.say(said);
+                }
+                self.show(state);
+            }
+            (Err(why), Some(state)) => {
+                self.complaint = is_reloading.then(|| why.clone()).or(self.complaint.take());
+                state.say(why);
+            }
             (Err(why), None) => return Err(ViewerError::Scene(why)),
         }
         Ok(())
     }
 
+    /// Loads the scene that is shown anew, where it has a file.
+    fn reload(&mut self) {
+        if let Some(path) = self.state.as_ref().and_then(|state| state.scene.files.first()) {
+            (self.loading, self.is_reloading) = (Some(self.files.scene(path)), true);
+            self.open.iter_mut().for_each(|open| open.wake_in(Duration::ZERO));
+        }
+    }
+
     /// Shows a scene in place of the one that is shown, if there is one.
     fn show(&mut self, mut state: State) {
         match &mut self.state {
-            Some(before) => state.take_over(before),
+            Some(before) => {
+                self.shelf.end(before);
+                state.take_over(before);
+            }
             None => state.saving.last = wishes::remembered(),
         }
+        self.shelf.begin(&state);
         // What the painter has not taken yet is nothing to go back to.
         let replaced = self.state.replace(state);
         self.before = self.before.take().or(replaced);
@@ -151,7 +185,7 @@ impl App {
                 Ok(edits) => (state.edits, state.metered) = (edits, None),
                 Err(why) => state.say(why),
             },
-            _ => self.loading = Some(self.files.scene(path)),
+            _ => (self.loading, self.is_reloading) = (Some(self.files.scene(path)), false),
         }
     }
 
@@ -209,6 +243,13 @@ impl App {
                 let said = wishes::copy(&*self.files, open, state);
                 state.say(said);
             }
+            (Request::List(typed), _, _) => self.shelf.list(typed),
+            (Request::Reload, _, _) => self.reload(),
+            (Request::BringBack, Some(state), _) => state.bring_back(),
+            (Request::Decline, Some(state), _) => {
+                let declined = state.offer.take();
+                declined.into_iter().for_each(|offer| self.shelf.decline(state, offer));
+            }
             (Request::SaveState, Some(state), _) => {
                 let said = native::save_state(state);
                 state.say(said);
@@ -238,12 +279,19 @@ impl App {
         };
         match self.open.as_mut().and_then(Open::verdict) {
             Some(Err(why)) => self.go_back(why)?,
-            Some(Ok(())) => self.before = None,
+            Some(Ok(())) => {
+                self.before = None;
+                self.shelf.drawn();
+            }
             None => {}
         }
+        if self.loading.is_none() && self.shelf.has_changed() {
+            self.reload();
+        }
+        let is_found = self.state.as_mut().is_some_and(|state| self.shelf.follow(state));
         let is_eager = self.open.as_ref().is_some_and(|open| open.is_eager && open.busy_for().is_none());
         let told = self.hear_keeper() || told;
-        let is_due = is_loaded || told || is_eager || self.open.as_ref().is_some_and(Open::is_due);
+        let is_due = is_loaded || told || is_found || is_eager || self.open.as_ref().is_some_and(Open::is_due);
         if is_due && self.pass() {
             // What stands above the control that was touched has been laid out with the value before.
             self.pass();
@@ -318,6 +366,7 @@ impl App {
         if let Some(open) = &self.open {
             open.window.set_visible(false);
         }
+        self.state.iter().for_each(|state| self.shelf.end(state));
         event_loop.exit();
     }
 }
@@ -373,8 +422,9 @@ impl ApplicationHandler for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let done = self.follow();
         self.heed(event_loop, done);
-        let due = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
-        let due = due.into_iter().chain(self.reopen_at).min();
+        let drawn = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
+        let kept = self.state.as_ref().and_then(|state| self.shelf.next(state));
+        let due = drawn.into_iter().chain(self.reopen_at).chain(kept).min();
         event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

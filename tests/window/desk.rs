@@ -33,6 +33,7 @@ pub mod keys {
     pub const ENTER: u32 = 0xff0d;
     pub const ESCAPE: u32 = 0xff1b;
     pub const HOME: u32 = 0xff50;
+    pub const DOWN: u32 = 0xff54;
     pub const SHIFT: u32 = 0xffe1;
     pub const CONTROL: u32 = 0xffe3;
 }
@@ -40,6 +41,7 @@ pub mod keys {
 /// The display and the program; both end with it.
 pub struct Desk {
     server: Child,
+    display: String,
     connection: Rc<RustConnection>,
     root: Window,
     pub size: [u16; 2],
@@ -56,28 +58,53 @@ impl Drop for Desk {
     }
 }
 
+/// Starts the program on a display, in a folder.
+fn program(display: &str, folder: &TempDir, arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_velour"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("DISPLAY", display)
+        .env("XDG_RUNTIME_DIR", folder.path())
+        .env("XDG_STATE_HOME", folder.path())
+        .envs(variables.iter().copied())
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
 impl Desk {
     /// A display of this size, which the program's window fills, with these arguments.
     pub fn new(size: [u16; 2], arguments: &[&Path]) -> Self {
-        Self::shown(Self::without_window(size, arguments))
+        let mut desk = Self::without_window(size, arguments);
+        desk.find_window();
+        desk
     }
 
     /// The same with these variables in the program's environment.
     pub fn within(size: [u16; 2], arguments: &[&Path], variables: &[(&str, &OsStr)]) -> Self {
-        Self::shown(Self::started(size, arguments, variables))
+        let mut desk = Self::started(size, arguments, variables);
+        desk.find_window();
+        desk
     }
 
-    /// Waits for the window, which fills the display from then on.
-    fn shown(mut desk: Self) -> Self {
-        let size = desk.size;
-        desk.window = desk.until("a window", |desk| desk.find());
+    /// Kills the program, which hears nothing of it, and starts it again on the same display and in the same folder.
+    pub fn kill_and_start(&mut self, arguments: &[&Path]) {
+        _ = (self.program.kill(), self.program.wait());
+        self.program = program(&self.display, &self.folder, arguments, &[]);
+        self.find_window();
+    }
+
+    /// Waits for the window, and gives it the screen and the keyboard: no window manager would.
+    fn find_window(&mut self) {
+        let size = self.size;
+        self.window = self.until("a window", |desk| desk.find());
         let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
-        let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
-        desk.connection.configure_window(desk.window, &place).unwrap().check().unwrap();
-        // There is no window manager that would give it the keyboard.
-        desk.connection.set_input_focus(InputFocus::PARENT, desk.window, 0_u32).unwrap().check().unwrap();
-        desk.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
-        desk
+        let place = place.width(size[0].into()).height(size[1].into());
+        self.connection.configure_window(self.window, &place).unwrap().check().unwrap();
+        self.connection.set_input_focus(InputFocus::PARENT, self.window, 0_u32).unwrap().check().unwrap();
+        self.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
     }
 
     /// The same with the default scene, without shadows: pictures are finished as soon as they are drawn, and come out the same each time.
@@ -114,19 +141,8 @@ impl Desk {
         let (connection, screen) = RustConnection::connect(Some(&display)).unwrap();
         let root = connection.setup().roots[screen].root;
         let folder = tempfile::tempdir().unwrap();
-        let program = Command::new(env!("CARGO_BIN_EXE_velour"))
-            .args(arguments)
-            .current_dir(&folder)
-            .env("DISPLAY", &display)
-            .env("XDG_RUNTIME_DIR", folder.path())
-            .env("XDG_STATE_HOME", folder.path())
-            .envs(variables.iter().copied())
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET")
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        Self { server, connection: Rc::new(connection), root, size, program, folder, window: 0 }
+        let program = program(&display, &folder, arguments, variables);
+        Self { server, display, connection: Rc::new(connection), root, size, program, folder, window: 0 }
     }
 
     /// Asks until there is an answer.

@@ -9,6 +9,7 @@ mod dragging;
 mod feel;
 mod files;
 mod hands;
+mod kept;
 mod lost;
 mod panel;
 mod pictures;

@@ -3,6 +3,7 @@
 //! The scene as loaded is never changed: what is drawn is a function of both ([`Drawn`](super::Drawn)). Edits are small
 //! (they hold what differs, and no more), so that a history of them costs next to nothing.
 
+mod carried;
 mod keys;
 mod light;
 mod light_keys;
@@ -21,6 +22,7 @@ use glam::Vec3;
 use super::{Camera, Layering, Lobes, Orbit, RoughnessMap, Scene, Settings, SheenModel};
 use crate::picture::{Exposure, ToneCurve};
 
+pub use carried::Carrier;
 pub use keys::Keyed;
 pub use light::{
     Added, AddedLight, AddedPunctual, LightEdits, LightShape, MOST_CORNERS, MOST_PUNCTUAL, PunctualEdits, PunctualShape,

@@ -4,10 +4,11 @@
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 
 use etcetera::BaseStrategy;
 
-use crate::file::write_atomically;
+use crate::file::{TEMPORARY, write_atomically};
 
 /// The longest text that is read, bytes: what is longer is not ours.
 const LONGEST: u64 = 1 << 24;
@@ -27,6 +28,37 @@ pub fn remember(name: &str, text: &str) -> Result<(), String> {
 pub fn forget(name: &str) {
     // Where it cannot be removed it is offered once more, no worse.
     let _ = folder().map(|folder| fs::remove_file(folder.join(name)));
+}
+
+/// How long ago the text under this name was kept; none where there is none, or where the clock has been set back since.
+pub fn age(name: &str) -> Option<Duration> {
+    fs::metadata(folder()?.join(name)).and_then(|file| file.modified()).ok()?.elapsed().ok()
+}
+
+/// Forgets the oldest of the names that begin so, until there are no more than `most`; and what a run has left that was ended while it
+/// wrote.
+pub fn tidy(beginning: &str, most: usize) {
+    folder().iter().for_each(|folder| tidy_in(folder, beginning, most));
+}
+
+fn tidy_in(folder: &Path, beginning: &str, most: usize) {
+    /// Nothing takes so long to write.
+    const LEFT: Duration = Duration::from_secs(600);
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let files = entries.filter_map(|entry| {
+        let written = entry.metadata().and_then(|file| file.modified()).ok()?;
+        Some((written, entry.file_name().to_str()?.to_owned()))
+    });
+    let (left, kept): (Vec<_>, Vec<_>) = files.partition(|(_, name)| name.starts_with(TEMPORARY));
+    let is_left = |written: &SystemTime| written.elapsed().is_ok_and(|age| age > LEFT);
+    let left = left.into_iter().filter(|(written, _)| is_left(written));
+    let mut kept: Vec<_> = kept.into_iter().filter(|(_, name)| name.starts_with(beginning)).collect();
+    kept.sort();
+    let surplus = kept.len().saturating_sub(most);
+    for (_, name) in left.chain(kept.into_iter().take(surplus)) {
+        // Another window may have done it already.
+        let _ = fs::remove_file(folder.join(name));
+    }
 }
 
 fn folder() -> Option<PathBuf> {
@@ -62,6 +94,25 @@ mod tests {
             assert_eq!(read(&inner.join("x.toml")).as_deref(), Some(text));
         }
         assert_eq!(fs::read_dir(&inner).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn the_oldest_are_forgotten_and_what_was_left_half_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, minutes: u64| {
+            let file = fs::File::create(folder.path().join(name)).unwrap();
+            file.set_modified(SystemTime::now() - Duration::from_secs(60 * minutes)).unwrap();
+        };
+        for (name, minutes) in [("kept-b", 3), ("kept-a", 2), ("kept-c", 1), ("recent.toml", 500)] {
+            write(name, minutes);
+        }
+        write(".velour-old", 20);
+        write(".velour-new", 0);
+        tidy_in(folder.path(), "kept-", 2);
+        let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, [".velour-new", "kept-a", "kept-c", "recent.toml"]);
+        tidy_in(&folder.path().join("none"), "kept-", 2);
     }
 
     #[test]

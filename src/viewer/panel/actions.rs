@@ -3,6 +3,7 @@
 use egui::{Button, Label, ScrollArea, Ui};
 
 use super::super::history::is_settled;
+use super::super::opening::Opening;
 use super::super::request::Request;
 use super::super::state::State;
 use super::super::widgets::{About, button};
@@ -13,9 +14,9 @@ const MESSAGES: f32 = 84.0;
 pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     ui.add_space(4.0);
     messages(ui, &mut state.messages);
+    let mut request = offer(ui, state);
     let status = status(state);
     ui.add(Label::new(egui::RichText::new(&status).small()).truncate().selectable(false)).on_hover_text(&status);
-    let mut request = None;
     ui.horizontal(|ui| {
         let undo = About::unless(
             "Takes back the last change; the view stays (Ctrl-Z).",
@@ -55,8 +56,29 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
         if button(ui, about, Button::new("Copy command")) {
             request = Some(Request::CopyCommand);
         }
+        if button(ui, "Opens another scene, or a state of this one (Ctrl-O).", Button::new("Open")) {
+            Opening::toggle(&mut state.opening);
+        }
     });
     ui.add_space(2.0);
+    request
+}
+
+/// Changes of an earlier run, which the user may want, or not.
+fn offer(ui: &mut Ui, state: &State) -> Option<Request> {
+    let offer = state.offer.as_ref()?;
+    let mut request = None;
+    ui.horizontal_top(|ui| {
+        if button(ui, "Leaves the scene as it is, and forgets those changes.", Button::new("x").small()) {
+            request = Some(Request::Decline);
+        }
+        let about = "Takes over what you had changed in this scene when it was last shown, and from where you saw it. Undo takes that \
+                     back.";
+        if button(ui, about, Button::new("Bring back").small()) {
+            request = Some(Request::BringBack);
+        }
+        ui.add(Label::new(&offer.said).wrap());
+    });
     request
 }
 

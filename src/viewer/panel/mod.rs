@@ -8,6 +8,7 @@ mod materials;
 mod notices;
 mod picture;
 mod presets;
+mod scene;
 
 use egui::Ui;
 
@@ -25,7 +26,7 @@ pub const WIDTH: f32 = 300.0;
 pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
     // However long the rest is, this stays in sight.
     let strip = egui::Panel::bottom("actions").resizable(false).frame(egui::Frame::NONE);
-    let request = strip.show(ui, |ui| actions::show(ui, state)).inner;
+    let mut request = strip.show(ui, |ui| actions::show(ui, state)).inner;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(6.0);
         let name = egui::RichText::new(file_name(&state.name)).heading();
@@ -37,6 +38,8 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
         fold(ui, "Picture", true, |ui| picture::show(ui, state));
         ui.separator();
         fold(ui, "Lights", true, |ui| lights::show(ui, state));
+        ui.separator();
+        fold(ui, "Scene", false, |ui| request = scene::show(ui, state).or(request.take()));
         ui.add_space(6.0);
     });
     if let Some(what) = refused(ui) {

@@ -12,7 +12,7 @@ use super::*;
 #[derive(Debug, PartialEq)]
 struct Snapshot {
     edits: Edits,
-    flags: [bool; 3],
+    flags: [bool; 4],
     request: Option<Request>,
     /// What is done with the light in the hand.
     tool: Option<Tool>,
@@ -30,8 +30,8 @@ fn after(modifiers: Modifiers, key: Option<Key>) -> Snapshot {
     window.state.chosen_light = Some(LightId::Area(0));
     window.modifiers = modifiers;
     let request = key.and_then(|key| window.request(key));
-    let State { edits, panel_hidden, keys_shown, saving, hands, .. } = window.state;
-    let flags = [panel_hidden, keys_shown, saving.form.is_some()];
+    let State { edits, panel_hidden, keys_shown, saving, opening, hands, .. } = window.state;
+    let flags = [panel_hidden, keys_shown, saving.form.is_some(), opening.is_some()];
     Snapshot { edits, flags, request, tool: hands.grab.map(|grab| grab.tool) }
 }
 
@@ -55,12 +55,14 @@ fn each_key_has_its_effect() {
             Command::SavePicture => {
                 found.request == Some(Request::SavePicture(Wish { settings: Settings::default(), name: None }))
             }
-            Command::SavePictureAs => found.flags == [false, false, true] && found.request.is_none(),
+            Command::SavePictureAs => found.flags == [false, false, true, false] && found.request.is_none(),
             Command::CopyPicture => found.request == Some(Request::CopyCommand),
+            Command::Open => found.flags == [false, false, false, true],
+            Command::Reload => found.request == Some(Request::Reload),
             Command::SaveState => found.request == Some(Request::SaveState),
             Command::Fullscreen => found.request == Some(Request::Fullscreen),
-            Command::Panel => found.flags == [true, false, false],
-            Command::Keys => found.flags == [false, true, false],
+            Command::Panel => found.flags == [true, false, false, false],
+            Command::Keys => found.flags == [false, true, false, false],
             Command::Grab(tool) => found.tool == Some(tool) && found.edits.lights.is_empty(),
             Command::DuplicateLight => found.tool == Some(Tool::Move) && found.edits.added_lights.len() == 1,
             Command::DeleteLight => found.edits.lights[&0].removed == Some(true),

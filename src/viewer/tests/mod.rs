@@ -7,6 +7,7 @@ mod flight;
 mod hands;
 mod keyboard;
 mod lights;
+mod opening;
 mod panel;
 mod picking_colors;
 mod saving;
@@ -211,7 +212,7 @@ fn place(node: &Node) -> Option<Rect> {
 }
 
 /// A velvet triangle of this size in metres, under one light.
-fn scene(size: f32) -> Scene {
+pub(super) fn scene(size: f32) -> Scene {
     let corners = vec![Vec3::ZERO, size * Vec3::X, size * Vec3::Y];
     let instance = |name: &str| Instance { name: name.into(), mesh: 0, world_from_mesh: Mat4::IDENTITY };
     let light = Light {
