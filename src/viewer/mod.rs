@@ -8,6 +8,7 @@ mod change;
 mod clerk;
 mod commands;
 mod easel;
+mod events;
 mod facts;
 mod files;
 mod frame;

@@ -1,4 +1,4 @@
-//! The window: its events, and when something is drawn. It never waits for the device: what draws is a [`Painter`] on a thread of its own,
+//! The program with its window: what happens between two events, and when something is drawn. It never waits for the device: what draws is a [`Painter`] on a thread of its own,
 //! which has one order at a time.
 
 use std::path::Path;
@@ -6,11 +6,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::ViewportId;
-use winit::application::ApplicationHandler;
-use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::monitor::MonitorHandle;
-use winit::window::{Fullscreen, Window, WindowId};
+use winit::window::{Fullscreen, Window};
 
 use super::ViewerError;
 use super::change::Change;
@@ -89,7 +87,13 @@ impl App {
         }
     }
 
-    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, ViewerError> {
+    /// The window, where there is one.
+    pub fn window(&mut self) -> Option<&mut Open> {
+        self.open.as_mut()
+    }
+
+    /// Opens the window.
+    pub fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
         self.receive_scene(UNSAID)?;
         // Where the system names no first monitor, the window may appear on any.
         let mut monitors: Vec<MonitorHandle> = event_loop.primary_monitor().into_iter().collect();
@@ -100,7 +104,8 @@ impl App {
         let attributes =
             Window::default_attributes().with_title(self.title(None)).with_inner_size(size).with_min_inner_size(least);
         let window = event_loop.create_window(attributes).map_err(|error| ViewerError::Window(error.to_string()))?;
-        Open::new(Arc::new(window), self.table.clone(), self.wake.clone())
+        self.open = Some(Open::new(Arc::new(window), self.table.clone(), self.wake.clone())?);
+        Ok(())
     }
 
     fn title(&self, doing: Option<&str>) -> String {
@@ -190,7 +195,7 @@ impl App {
     }
 
     /// Lets egui see the events so far and keeps what they lead to; whether they have changed something.
-    fn pass(&mut self) -> bool {
+    pub fn pass(&mut self) -> bool {
         let Some(open) = &mut self.open else { return false };
         let input = open.egui.take_egui_input(&open.window);
         let context = open.egui.egui_ctx().clone();
@@ -261,7 +266,7 @@ impl App {
     }
 
     /// What is due by now: the scene, what the painter has to tell, a pass, its next order.
-    fn follow(&mut self) -> Result<(), ViewerError> {
+    pub fn follow(&mut self) -> Result<(), ViewerError> {
         let Some(open) = &self.open else { return Ok(()) };
         if let Some(why) = open.loss() {
             return Err(ViewerError::Lost(why));
@@ -312,6 +317,13 @@ impl App {
         is_heard
     }
 
+    /// When something is to be looked at again.
+    pub fn next(&self) -> Option<Instant> {
+        let drawn = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
+        let kept = self.state.as_ref().and_then(|state| self.shelf.next(state));
+        drawn.into_iter().chain(self.reopen_at).chain(kept).min()
+    }
+
     /// Says in the title what takes long.
     fn tell(&mut self) {
         let is_slow = self.open.as_ref().and_then(Open::busy_for).is_some_and(|time| time >= SLOW);
@@ -326,7 +338,7 @@ impl App {
     }
 
     /// Ends the program where something has failed.
-    fn heed(&mut self, event_loop: &ActiveEventLoop, done: Result<(), ViewerError>) {
+    pub fn heed(&mut self, event_loop: &ActiveEventLoop, done: Result<(), ViewerError>) {
         let done = match done {
             Err(ViewerError::Lost(why)) => self.lose_device(why),
             done => done,
@@ -362,7 +374,7 @@ impl App {
     }
 
     /// The window is gone at once, whatever the painter is at.
-    fn close(&mut self, event_loop: &ActiveEventLoop) {
+    pub fn close(&mut self, event_loop: &ActiveEventLoop) {
         if let Some(open) = &self.open {
             open.window.set_visible(false);
         }
@@ -375,56 +387,4 @@ impl App {
 fn toggle_fullscreen(window: &Window) {
     let is_full = window.fullscreen().is_some();
     window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
-}
-
-impl ApplicationHandler for App {
-    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.open.is_none() {
-            let opened = self.open(event_loop).map(|open| self.open = Some(open));
-            self.heed(event_loop, opened);
-        }
-    }
-
-    fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
-        // egui sees only the result of what happens between two passes. That may be a whole drag, or a number with the key that
-        // leaves its box, so each press and each release gets a pass of its own.
-        let is_press = matches!(event, WindowEvent::MouseInput { .. } | WindowEvent::KeyboardInput { .. });
-        if is_press {
-            self.pass();
-        }
-        let Some(open) = &mut self.open else { return };
-        let response = open.egui.on_window_event(&open.window, &event);
-        if is_press {
-            self.pass();
-        }
-        let Some(open) = &mut self.open else { return };
-        match event {
-            WindowEvent::CloseRequested => self.close(event_loop),
-            // The system may have lost what it had. egui answers by asking for a repaint: heeding that, the window would never rest.
-            WindowEvent::RedrawRequested => open.expose(),
-            // Nothing is drawn that nobody sees.
-            WindowEvent::Occluded(true) => open.hide(),
-            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => {
-                open.fit();
-                open.expose();
-                open.wake_in(Duration::ZERO);
-            }
-            WindowEvent::CursorMoved { .. } if response.repaint => open.follow_pointer(),
-            _ if response.repaint => open.wake_in(Duration::ZERO),
-            _ => {}
-        }
-    }
-
-    /// The painter has something to tell.
-    fn user_event(&mut self, _event_loop: &ActiveEventLoop, (): ()) {}
-
-    /// All events so far have been seen.
-    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let done = self.follow();
-        self.heed(event_loop, done);
-        let drawn = self.open.as_ref().and_then(|open| open.next(SLOW, self.state.as_ref()));
-        let kept = self.state.as_ref().and_then(|state| self.shelf.next(state));
-        let due = drawn.into_iter().chain(self.reopen_at).chain(kept).min();
-        event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
-    }
 }
