@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use super::file_name;
 use super::native::{self, Instant};
+use super::offer::Offer;
 use super::state::State;
 use crate::scene::{Edits, Scene};
 
@@ -19,23 +20,13 @@ pub const BEGINNING: &str = "kept-";
 /// The least time between two writes.
 const PACE: Duration = Duration::from_secs(2);
 
-/// Changes that an earlier run has left.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Offer {
-    pub text: String,
-    /// What there is to say of it.
-    pub said: String,
-}
-
-impl Offer {
-    /// What is kept of this state's scene, where it differs from what is shown.
-    pub fn of(state: &State) -> Option<Self> {
-        let name = name(&state.scene);
-        let text = native::remembered(&name)?;
-        let now = state.edits.to_text(&state.scene);
-        let is_shown = without_comments(&text) == without_comments(&now);
-        (!is_shown).then(|| Self { said: said(&state.name, native::age(&name)), text })
-    }
+/// What is kept of this state's scene, where it differs from what is shown.
+pub fn offer(state: &State) -> Option<Offer> {
+    let name = name(&state.scene);
+    let text = native::remembered(&name)?;
+    let now = state.edits.to_text(&state.scene);
+    let is_shown = without_comments(&text) == without_comments(&now);
+    (!is_shown).then(|| Offer { said: said(&state.name, native::age(&name)), text })
 }
 
 fn without_comments(text: &str) -> String {

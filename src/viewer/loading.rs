@@ -6,7 +6,7 @@ use std::time::Duration;
 use egui::{Align2, Ui};
 
 use super::file_name;
-use super::kept::Offer;
+use super::kept;
 use super::native::{self, Instant, Task};
 use super::state::State;
 use crate::scene::{Edits, Scene};
@@ -35,7 +35,7 @@ impl Loading {
         let work = move || {
             let (scene, edits) = load(&say)?;
             let mut state = State::new(&of, scene, edits);
-            state.offer = Offer::of(&state);
+            state.offer = kept::offer(&state);
             Ok(state)
         };
         Self { name, task: Task::start(work), stage, since: native::now() }

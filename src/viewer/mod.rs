@@ -28,6 +28,7 @@ mod loading;
 mod mirror;
 mod native;
 mod navigate;
+mod offer;
 mod open;
 mod opening;
 mod order;

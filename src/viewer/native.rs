@@ -16,8 +16,6 @@ use std::time::Duration;
 
 use crate::renderer::Gpu;
 
-use super::state::State;
-
 #[cfg(all(unix, not(target_vendor = "apple"), not(target_os = "android")))]
 pub(super) use display::event_loop_builder;
 pub(super) use folders::{absolute, entered, in_full, length, listed};
@@ -141,9 +139,9 @@ pub(super) fn finish(gpu: &Gpu) {
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
 }
 
-/// Saves what the user has changed as a text in the current folder; says where, or why not.
-pub(super) fn save_state(state: &State) -> String {
-    let text = format!("# Changes to {}, for --state.\n{}", one_line(&state.name), state.edits.to_text(&state.scene));
+/// Saves what the user has changed in a scene of this name as a text in the current folder; says where, or why not.
+pub(super) fn save_state(name: &str, changes: &str) -> String {
+    let text = format!("# Changes to {}, for --state.\n{changes}", one_line(name));
     match write(|| numbered_place(&folder(None), "toml"), text.as_bytes()) {
         Ok(path) => format!("saved {}", path.display()),
         Err(why) => format!("can't save the state: {why}"),

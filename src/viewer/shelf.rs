@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use winit::event_loop::EventLoopProxy;
 
 use super::clerk::{self, Done, Errand};
-use super::kept::{self, Keeper, Offer, Step};
+use super::kept::{self, Keeper, Step};
 use super::native::{self, Instant, Watch, Worker};
+use super::offer::Offer;
 use super::state::State;
 use crate::scene::Edits;
 

@@ -256,7 +256,7 @@ impl App {
                 declined.into_iter().for_each(|offer| self.shelf.decline(state, offer));
             }
             (Request::SaveState, Some(state), _) => {
-                let said = native::save_state(state);
+                let said = native::save_state(&state.name, &state.edits.to_text(&state.scene));
                 state.say(said);
             }
             (Request::Fullscreen, _, Some(open)) => toggle_fullscreen(&open.window),

@@ -39,6 +39,9 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
         if button(ui, "Lists all keys, and what the mouse does in the picture.", Button::new("?")) {
             state.keys_shown = !state.keys_shown;
         }
+        if button(ui, "Opens another scene, or a state of this one (Ctrl-O).", Button::new("Open")) {
+            Opening::toggle(&mut state.opening);
+        }
     });
     ui.horizontal(|ui| {
         let about = "Saves the picture, without the panel, in any size (Ctrl-Shift-S). P saves it at once, as the last one was saved: at \
@@ -55,9 +58,6 @@ pub fn show(ui: &mut Ui, state: &mut State) -> Option<Request> {
                      (Ctrl-Shift-C).";
         if button(ui, about, Button::new("Copy command")) {
             request = Some(Request::CopyCommand);
-        }
-        if button(ui, "Opens another scene, or a state of this one (Ctrl-O).", Button::new("Open")) {
-            Opening::toggle(&mut state.opening);
         }
     });
     ui.add_space(2.0);
