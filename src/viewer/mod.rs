@@ -24,6 +24,7 @@ mod lamp;
 mod lamps;
 mod layout;
 mod lens;
+mod listing;
 mod loading;
 mod mirror;
 mod native;

@@ -3,7 +3,7 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align2, Area, Button, Id, Key, Modal, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui, vec2};
 
-use super::clerk::{Entry, Listing};
+use super::listing::{Entry, Listing};
 use super::native;
 use super::request::Request;
 use super::widgets::{About, button, short};

@@ -1,6 +1,6 @@
 //! The box by which files are opened, changes of the last time, and a scene whose file has changed.
 
-use super::super::clerk::{Entry, Listing};
+use super::super::listing::{Entry, Listing};
 use super::super::offer::Offer;
 use super::super::opening::Opening;
 use super::*;
