@@ -6,8 +6,22 @@ use egui::{Align2, FontId, Id, LayerId, Ui};
 
 use super::loading::Loading;
 use super::request::Request;
-use super::wishes::Pictured;
+use crate::picture::Format;
 use crate::scene::{Edits, Scene};
+
+/// What a command has to draw.
+pub struct Pictured<'a> {
+    /// As it was loaded.
+    pub scene: &'a Scene,
+    /// What has been changed in it, the view too.
+    pub edits: &'a Edits,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel, where there are shadows.
+    pub samples: u32,
+    /// Of the picture's file.
+    pub format: Format,
+}
 
 /// Who reads files for the viewer, with whatever was asked for at its start.
 pub trait Files {

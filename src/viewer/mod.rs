@@ -61,9 +61,8 @@ mod wishes;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-pub use files::Files;
+pub use files::{Files, Pictured};
 pub use loading::Loading;
-pub use wishes::Pictured;
 
 use crate::renderer::{DeviceError, RenderError};
 use crate::table::SheenTable;

@@ -1,30 +1,14 @@
 //! Pictures of what is shown, as the user wants them: in a file, or as the command that makes one.
 
 use super::change::Change;
-use super::files::Files;
+use super::files::{Files, Pictured};
 use super::native::{self, Job, Keeper, Means};
 use super::open::Open;
 use super::saving::{Settings, Wish};
 use super::state::State;
-use crate::picture::Format;
-use crate::scene::{Edits, Scene};
 
 /// Under which name it is kept how pictures are saved.
 const KEPT: &str = "picture.toml";
-
-/// What a command has to draw.
-pub struct Pictured<'a> {
-    /// As it was loaded.
-    pub scene: &'a Scene,
-    /// What has been changed in it, the view too.
-    pub edits: &'a Edits,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Samples a pixel, where there are shadows.
-    pub samples: u32,
-    /// Of the picture's file.
-    pub format: Format,
-}
 
 /// How pictures were saved in an earlier run.
 pub fn remembered() -> Settings {
