@@ -101,7 +101,7 @@ impl Desk {
         let size = self.size;
         self.window = self.until("a window", |desk| desk.find());
         let place = x11rb::protocol::xproto::ConfigureWindowAux::new().x(0).y(0);
-        let place = place.width(size[0].into()).height(size[1].into());
+        let place = place.width(u32::from(size[0])).height(u32::from(size[1]));
         self.connection.configure_window(self.window, &place).unwrap().check().unwrap();
         self.connection.set_input_focus(InputFocus::PARENT, self.window, 0_u32).unwrap().check().unwrap();
         self.move_to([i16::try_from(size[0] / 3).unwrap(), 5]);
