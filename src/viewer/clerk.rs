@@ -9,7 +9,7 @@ use super::{native, recent};
 /// What is to be done.
 pub enum Errand {
     /// Keep the changes of a scene.
-    Keep(Kept),
+    Keep(Box<Kept>),
     /// Forget them.
     Forget(String),
     /// Forget what was offered under this name, unless it has been kept anew meanwhile.

@@ -79,7 +79,7 @@ impl Kept {
 
 /// What is to be done with the changes of a scene.
 pub enum Step {
-    Keep(Kept),
+    Keep(Box<Kept>),
     /// There are none any more.
     Forget(String),
 }
@@ -112,7 +112,7 @@ impl Keeper {
         if is_worth_keeping(&self.begun, &self.last) {
             (self.at, self.has_kept) = (Some(now), true);
             let (scene, edits) = (state.scene.clone(), self.last.clone());
-            return Some(Step::Keep(Kept { name, of: state.name.clone(), scene, edits }));
+            return Some(Step::Keep(Box::new(Kept { name, of: state.name.clone(), scene, edits })));
         }
         std::mem::take(&mut self.has_kept).then(|| {
             self.at = Some(now);
