@@ -22,6 +22,7 @@ impl Loading {
     }
 
     /// The flags that say so, where they say anything.
+    #[cfg(feature = "window")]
     pub fn words(options: &Options) -> Vec<String> {
         let Options { pose, rig } = options;
         let default = Options::default();

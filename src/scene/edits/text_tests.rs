@@ -255,3 +255,23 @@ fn more_lights_than_there_is_room_for_are_refused() {
     assert_eq!(refused, "line 511, added-light: all lights have at most 8192 corners together; leave some out");
     assert!(read(&"[[added-light]]\nshape = \"spot\"\n".repeat(1025)).unwrap_err().contains("at most 1024"));
 }
+
+/// A shell that reads a state up to a line of its own must not find that line in a name.
+#[test]
+fn no_name_makes_lines_of_its_own() {
+    let mut scene = scene();
+    scene.materials[0].name = "a\nEND\nb\r\n\"'''\u{2028}\u{85}x".to_owned();
+    scene.lights[1].name = "'''\nEND\n".to_owned();
+    let material = MaterialEdits { alpha: Some(0.5), ..MaterialEdits::default() };
+    let light = LightEdits { strength: Some(0.5), ..LightEdits::default() };
+    let added = Added { name: "\nEND\n".to_owned(), shape: LightShape::Disk, changes: light };
+    let edits = Edits {
+        materials: [(0, material)].into(),
+        lights: [(1, light)].into(),
+        added_lights: vec![added],
+        ..Edits::default()
+    };
+    let text = edits.to_text(&scene);
+    assert!(text.lines().all(|line| line.is_empty() || line.starts_with('[') || line.contains(" = ")), "{text}");
+    assert_eq!(Edits::from_text(&text, &scene), Ok(edits));
+}

@@ -32,7 +32,20 @@ fn written(value: &Value) -> String {
     match value {
         Value::Number(one) => number(one),
         Value::Numbers(several) => format!("[{}]", several.iter().map(number).collect::<Vec<_>>().join(", ")),
-        Value::Text(text) => toml::Value::String(text.clone()).to_string(),
+        Value::Text(text) => quoted(text),
         Value::Switch(switch) => switch.to_string(),
     }
+}
+
+/// A text as a basic string of TOML, in one line whatever is in it: a name must not be able to end what the text stands in.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|character| match character {
+        '"' | '\\' => format!("\\{character}"),
+        // TOML knows no more ends of lines, but programs do.
+        _ if character.is_control() || matches!(character, '\u{2028}' | '\u{2029}') => {
+            format!("\\u{:04x}", u32::from(character))
+        }
+        _ => character.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
 }
