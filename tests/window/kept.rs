@@ -139,8 +139,8 @@ fn files_that_change_are_loaded_again() {
     std::fs::write(&state, "shadows = false\n").unwrap();
     let mut desk = Desk::new(SIZE, &["view".as_ref(), &scene, "--state".as_ref(), &state]);
     desk.settle();
-    // There is no list of materials where there is but one.
-    desk.click([ALPHA_HIGH[0], ALPHA_HIGH[1] - 24]);
+    // Its notices take a row.
+    desk.click([ALPHA_HIGH[0], ALPHA_HIGH[1] + 24]);
     let alpha = desk.until_state("alpha", |state| state.get("alpha").is_some()).number("alpha");
     let before = desk.settle();
     let text = std::fs::read_to_string(&scene).unwrap();
