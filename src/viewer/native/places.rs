@@ -3,19 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::super::saving::{Settings, extension};
+use super::folders::in_full;
 use crate::file::{WriteError, write_new};
 
 /// The folder that the user has named, in full; the current one where there is no name.
 pub fn folder(named: Option<&str>) -> PathBuf {
     let named = named.map_or("", str::trim);
-    let home = || std::env::home_dir().filter(|_| named == "~" || named.starts_with("~/"));
-    let path = match home() {
-        Some(home) => home.join(named.trim_start_matches('~').trim_start_matches('/')),
-        None if named.is_empty() => PathBuf::from("."),
-        None => PathBuf::from(named),
-    };
     // Whoever opened the window from a desktop does not know which folder is the current one.
-    std::path::absolute(&path).unwrap_or(path)
+    in_full(if named.is_empty() { "." } else { named })
 }
 
 /// The first of velour-001 to velour-999 that is free in the settings' folder, without its extension.
