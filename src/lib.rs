@@ -20,6 +20,7 @@
 //! | `renderer` | wgpu: device, targets, passes | `gpu` |
 //! | `figures` | the table, its lobes and its errors; explicit fibres; the paper's figures | `cli` |
 //! | `viewer` | a window with orbit and panel | `window` |
+//! | `export` | the shaders in other languages, golden numbers, the tables in other forms | `cli` |
 //! | `file` | a file appears whole or not at all | `cli` or `window` |
 //!
 //! # Example
@@ -63,6 +64,8 @@
 
 #[cfg(feature = "scenes")]
 pub mod bvh;
+#[cfg(feature = "cli")]
+pub mod export;
 #[cfg(feature = "cli")]
 pub mod figures;
 #[cfg(any(feature = "cli", feature = "window"))]

@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::compare::Compare;
+use crate::export::Export;
 use crate::figures::Figures;
 use crate::fit::Fit;
 #[cfg(feature = "window")]
@@ -76,6 +77,9 @@ pub enum Command {
     /// Makes all figures and the page that shows them: the table, its lobes and errors (.svg), the paper's and our
     /// comparisons (.png); what is there already, made with the same settings, is left
     Figures(Figures),
+    /// Writes what other engines take: shaders in their languages
+    #[command(subcommand)]
+    Export(Export),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]
     Info,

@@ -8,6 +8,7 @@ mod assignment;
 mod comment;
 mod compare;
 mod console;
+mod export;
 mod exposed;
 mod failure;
 mod figures;
@@ -63,6 +64,7 @@ fn main() -> ExitCode {
         Some(Command::Info) => info::run(),
         Some(Command::Fit(fit)) => fit::run(&fit),
         Some(Command::Compare(compare)) => compare::run(&compare),
+        Some(Command::Export(export)) => export::run(&export),
         Some(Command::Figures(figures)) => figures::run(&figures),
     };
     match done {
