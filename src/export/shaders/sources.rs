@@ -1,0 +1,52 @@
+//! The files that are made to be copied.
+
+use super::language::Language;
+use super::refusal::Refusal;
+use super::translate::translate;
+
+/// A file that is made to be copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The name without its extension.
+    pub stem: &'static str,
+    /// The WGSL.
+    pub text: &'static str,
+    /// What the example in its header takes for granted: a function, but for its closing brace.
+    pub given: &'static str,
+}
+
+impl Source {
+    /// The file in another language.
+    pub fn in_language(&self, language: Language) -> Result<String, Refusal> {
+        translate(self.text, self.given, &[], language)
+    }
+}
+
+/// All of them, each after those that it is copied with.
+pub const SOURCES: [Source; 4] = [
+    Source {
+        stem: "ltc",
+        text: include_str!("../../../shaders/ltc.wgsl"),
+        given: "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
+            var outline = ltc_begin(frame * (last - position));
+            var sum = 0.0;
+            var turn = LTC_LEVEL;",
+    },
+    Source {
+        stem: "ltc_sample",
+        text: include_str!("../../../shaders/ltc_sample.wgsl"),
+        given: "struct Outline { p: vec3<f32>, q: vec3<f32>, normal: vec3<f32>, sine: f32 }
+        fn example(outline: Outline, m_inv: mat3x3<f32>, number: f32, form_factor: f32) {
+            var fan = ltc_sample_begin(number, form_factor);",
+    },
+    Source {
+        stem: "sheen",
+        text: include_str!("../../../shaders/sheen.wgsl"),
+        given: "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    },
+    Source {
+        stem: "ggx",
+        text: include_str!("../../../shaders/ggx.wgsl"),
+        given: "fn example(table: texture_2d<f32>, roughness: f32, mu: f32, light: vec3<f32>, f0: vec3<f32>, f90: vec3<f32>, form_factor: f32) {",
+    },
+];
