@@ -34,6 +34,12 @@ pub(super) fn parse(text: &str) -> Result<File, Refusal> {
     }
 }
 
+/// Reads the head of a function, from its name on.
+pub(super) fn parse_head(text: &str) -> Result<Function, Refusal> {
+    let whole = format!("{text} {{}}");
+    function(&mut Cursor::new(&whole)?)
+}
+
 fn constant(cursor: &mut Cursor<'_>) -> Result<Item, Refusal> {
     let name = cursor.word()?;
     let kind = given_type(cursor)?;

@@ -219,5 +219,5 @@ fn type_named(text: &str) -> Option<Type> {
 fn swizzle(name: &str, size: usize) -> Option<usize> {
     let sets = ["xyzw", "rgba"];
     let fits = |set: &&str| name.chars().all(|letter| set[..size].contains(letter));
-    (!name.is_empty() && name.len() <= 4 && sets.iter().any(|set| fits(&set))).then_some(name.len())
+    (!name.is_empty() && name.len() <= 4 && sets.iter().any(fits)).then_some(name.len())
 }

@@ -102,9 +102,7 @@ impl<'a> Statements<'a> {
         match &statement.what {
             Statement::Return(None) => Ok("return;".to_owned()),
             Statement::Return(Some(value)) => self.give_back(value, indent),
-            Statement::If { condition, then, otherwise } => {
-                self.branch(condition, then, otherwise.as_deref(), line, indent)
-            }
+            Statement::If { condition, then, otherwise } => self.branch(condition, then, otherwise.as_deref(), indent),
             Statement::For { first, condition, next, body } => {
                 let depth = self.scope.depth();
                 let first = first.as_ref().map_or(Ok(String::new()), |first| self.simple(first, line))?;
@@ -134,7 +132,6 @@ impl<'a> Statements<'a> {
         condition: &Expression,
         then: &Block,
         otherwise: Option<&Otherwise>,
-        line: usize,
         indent: usize,
     ) -> Result<String, Refusal> {
         let text = format!("if ({}) {}", self.condition(condition)?, self.block(then, indent)?);
@@ -143,7 +140,7 @@ impl<'a> Statements<'a> {
             Some(Otherwise::Block(block)) => format!("{text} else {}", self.block(block, indent)?),
             Some(Otherwise::If(statement)) => {
                 let Statement::If { condition, then, otherwise } = statement else { unreachable!("it is an if") };
-                format!("{text} else {}", self.branch(condition, then, otherwise.as_deref(), line, indent)?)
+                format!("{text} else {}", self.branch(condition, then, otherwise.as_deref(), indent)?)
             }
         })
     }
@@ -240,10 +237,10 @@ impl<'a> Statements<'a> {
     fn members(&self, value: &Expression) -> Result<String, Refusal> {
         let Form::Call { arguments, .. } = &value.what else { unreachable!("a struct is made by a call") };
         self.scope.type_of(value)?;
-        let mut text = "{ ".to_owned();
+        let mut text = "{".to_owned();
         for (index, argument) in arguments.iter().enumerate() {
             text += if index == 0 { "" } else { "," };
-            text += &self.after(if index == 0 { "" } else { " " }, argument)?;
+            text += &self.after(" ", argument)?;
         }
         Ok(text + " }")
     }

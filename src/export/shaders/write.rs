@@ -2,7 +2,7 @@
 
 use super::declarations::Declarations;
 use super::language::Language;
-use super::parse::File;
+use super::parse::{File, parse_head};
 use super::refusal::Refusal;
 use super::scope::Scope;
 use super::spelling::{separator, spell};
@@ -20,7 +20,7 @@ pub(super) fn write(file: &File, language: Language, declarations: &Declarations
         if Some(index) == first_function {
             text += &writer.prototypes(file, item.line)?;
         }
-        text += &writer.lead(&item.lead, 0);
+        text += &writer.top_lead(&item.lead)?;
         text += &match &item.what {
             Item::Const { name, kind, value } => writer.constant(name, kind.as_ref(), value, item)?,
             Item::Struct { name, fields } => writer.structure(name, fields, item)?,
@@ -30,6 +30,9 @@ pub(super) fn write(file: &File, language: Language, declarations: &Declarations
     Ok(text + &writer.lead(&file.tail, 0))
 }
 
+/// How a comment begins that tells a function's head.
+const HEAD_IN_COMMENT: &str = "//     fn ";
+
 struct Writer<'a> {
     language: Language,
     declarations: &'a Declarations,
@@ -38,6 +41,22 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn lead(&self, lead: &[Lead], indent: usize) -> String {
         super::statements::lead(lead, indent, self.language)
+    }
+
+    /// Comments that tell heads of functions tell them in this language.
+    fn top_lead(&self, lead: &[Lead]) -> Result<String, Refusal> {
+        let mut text = String::new();
+        for line in lead {
+            let head = match line {
+                Lead::Comment(comment) => comment.strip_prefix(HEAD_IN_COMMENT),
+                Lead::Blank => None,
+            };
+            text += &match head {
+                Some(head) => format!("//     {};\n", self.head(&parse_head(head)?, 0)?),
+                None => self.lead(std::slice::from_ref(line), 0),
+            };
+        }
+        Ok(text)
     }
 
     fn note(&self, comment: Option<&String>) -> String {

@@ -22,7 +22,7 @@ pub struct Shaders {
 }
 
 /// A language, with the version where one is meant.
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, ValueEnum, PartialEq)]
 enum Language {
     /// OpenGL ES 3.0 and WebGL 2; the same files as glsl-450
     GlslEs300,
@@ -35,7 +35,7 @@ enum Language {
     Msl,
     /// WebGPU: the files that the others are made from, as they are
     Wgsl,
-    /// Vulkan: a library a file, whose functions are exported by name; for spirv-link
+    /// Vulkan: libraries whose functions are exported by name, for spirv-link; but for the loop over lights
     Spirv,
 }
 
@@ -69,7 +69,9 @@ impl Language {
 pub fn run(arguments: &Shaders) -> Result<(), Failure> {
     let extension = arguments.lang.extension();
     let mut files = Vec::new();
-    for source in &SOURCES {
+    // A library in SPIR-V has all that it calls.
+    let is_whole = |source: &&Source| arguments.lang != Language::Spirv || source.needs.is_empty();
+    for source in SOURCES.iter().filter(is_whole) {
         let path = arguments.output.join(format!("{}.{extension}", source.stem));
         files.push((path, arguments.lang.bytes(source)?));
     }
