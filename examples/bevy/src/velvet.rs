@@ -57,7 +57,9 @@ impl Look {
             let Some(mut material) = materials.get_mut(handle) else { continue };
             material.extension = self.sheen(tables);
             match fixed {
-                Some((color, alpha)) if self.sheen => (material.extension.color, material.extension.alpha) = (color, alpha),
+                Some((color, alpha)) if self.sheen => {
+                    (material.extension.color, material.extension.alpha) = (color, alpha)
+                }
                 Some(_) => {}
                 None => material.base.base_color = linear(COLORS[self.color].2).into(),
             }

@@ -14,7 +14,8 @@ const UNSIGNED_SHORT: u32 = 5123;
 
 pub fn gltf() -> String {
     let mut file = File::default();
-    for Thing { name, shape, place, base_color: [r, g, b], roughness, metallic, sheen_color, alpha } in scene::things() {
+    for Thing { name, shape, place, base_color: [r, g, b], roughness, metallic, sheen_color, alpha } in scene::things()
+    {
         let material = json!({
             "name": name,
             "pbrMetallicRoughness": {

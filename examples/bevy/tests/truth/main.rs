@@ -96,7 +96,8 @@ fn difference(name: &str, picture: &Picture) -> Difference {
         assert!(errors.iter().all(|error| error.is_finite()));
         sum += errors.iter().sum::<f32>();
         radiance += wanted.0.iter().sum::<f32>();
-        let scaled = [0, 1, 2].map(|channel| errors[channel] / wanted[channel].max(1.0)).into_iter().fold(0.0, f32::max);
+        let scaled =
+            [0, 1, 2].map(|channel| errors[channel] / wanted[channel].max(1.0)).into_iter().fold(0.0, f32::max);
         found.greatest = found.greatest.max(scaled);
         if scaled > GREATEST {
             found.outliers += 1;
