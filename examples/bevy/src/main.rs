@@ -67,8 +67,10 @@ fn window() -> Result<(), String> {
 
 fn setup(world: &mut World) {
     velvet::spawn(world, RenderTarget::default());
-    let place = Node { position_type: PositionType::Absolute, top: px(12), left: px(12), ..default() };
-    world.spawn((Text::default(), TextFont { font_size: FontSize::Px(16.0), ..default() }, place));
+    let (top, padding) = (px(0), UiRect::axes(px(12), px(8)));
+    let place = Node { position_type: PositionType::Absolute, top, left: px(0), padding, ..default() };
+    let font = TextFont { font_size: FontSize::Px(16.0), ..default() };
+    world.spawn((Text::default(), font, place, BackgroundColor(Color::BLACK.with_alpha(0.7))));
 }
 
 fn turn(
