@@ -5,6 +5,8 @@ mod files;
 mod filters;
 mod form_factor;
 mod ggx;
+#[cfg(feature = "cli")]
+mod golden;
 mod millions;
 mod named_cases;
 mod polygons;
