@@ -6,10 +6,10 @@ use velour::export::shaders::{Language, SOURCES, Source, translate};
 const SHELL: &str = "fn golden_number(index: u32) -> f32 { return 0.0; } fn golden_put(index: u32, value: f32) {}";
 
 /// The calls, in WGSL.
-pub const CALLS: &str = include_str!("../shaders/golden.wgsl");
+const CALLS: &str = include_str!("../shaders/golden.wgsl");
 
 /// The files of which functions are called.
-pub fn called() -> impl Iterator<Item = &'static Source> {
+fn called() -> impl Iterator<Item = &'static Source> {
     SOURCES.iter().filter(|source| source.theirs.is_empty())
 }
 

@@ -1,19 +1,14 @@
-//! GLSL, HLSL and WGSL: compiled, and run by Vulkan.
+//! GLSL and HLSL: compiled, and run by Vulkan.
 
 use std::process::Command;
 
 use velour::export::shaders::{Language, SOURCES, spirv as library};
 
 use super::compilers::{compiles, folder, run, spirv, validate};
-use super::device::{Shader, run as run_on_device};
+use super::device::run as run_on_device;
 use super::golden::{Rows, assert_right};
 use super::shells;
 use super::theirs::theirs;
-
-fn wgsl() -> String {
-    let shipped: String = shells::called().map(|source| source.text).collect();
-    format!("{shipped}{}{}", shells::CALLS, include_str!("shells/shell.wgsl"))
-}
 
 fn glsl() -> String {
     let (before, after) = (include_str!("shells/before.glsl"), include_str!("shells/after.glsl"));
@@ -26,17 +21,11 @@ fn hlsl() -> String {
 }
 
 #[test]
-fn wgsl_gives_the_golden_numbers() {
-    let rows = Rows::shipped();
-    assert_right("WGSL", &rows, &run_on_device(&Shader::Wgsl(&wgsl()), &rows));
-}
-
-#[test]
 fn glsl_gives_the_golden_numbers() {
     let (_folder, path) = folder();
     let rows = Rows::shipped();
     let module = spirv(&path, &glsl(), false);
-    assert_right("GLSL 4.50", &rows, &run_on_device(&Shader::Spirv(&module), &rows));
+    assert_right("GLSL 4.50", &rows, &run_on_device(&module, &rows));
 }
 
 #[test]
@@ -44,7 +33,7 @@ fn hlsl_gives_the_golden_numbers() {
     let (_folder, path) = folder();
     let rows = Rows::shipped();
     let module = spirv(&path, &hlsl(), true);
-    assert_right("HLSL", &rows, &run_on_device(&Shader::Spirv(&module), &rows));
+    assert_right("HLSL", &rows, &run_on_device(&module, &rows));
 }
 
 #[test]
@@ -59,7 +48,7 @@ fn a_mistake_in_a_language_is_found() {
     );
     assert_ne!(source, wrong);
     let module = spirv(&path, &wrong, true);
-    assert!(!rows.off(&run_on_device(&Shader::Spirv(&module), &rows)).is_empty());
+    assert!(!rows.off(&run_on_device(&module, &rows)).is_empty());
 }
 
 /// Each file alone, or behind those that it needs, and all of them together.

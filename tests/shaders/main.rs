@@ -7,6 +7,7 @@ mod form_factor;
 mod ggx;
 #[cfg(feature = "cli")]
 mod golden;
+mod lights;
 mod millions;
 mod named_cases;
 mod polygons;
