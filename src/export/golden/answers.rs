@@ -54,7 +54,8 @@ impl Answers {
         let mut is_first = true;
         for (index, line) in text.lines().enumerate() {
             let is_between = |letter: char| letter == ',' || letter == ';' || letter.is_whitespace();
-            let content = line.split('#').next().filter(|_| line.trim_start().starts_with('#')).unwrap_or(line);
+            // Within a line '#' may belong to a number: 1.#IND.
+            let content = if line.trim_start().starts_with('#') { "" } else { line };
             let mut words = content.split(is_between).filter(|word| !word.is_empty());
             let Some(id) = words.next() else { continue };
             let is_header = std::mem::take(&mut is_first) && id.trim_matches('"').eq_ignore_ascii_case("id");
