@@ -2,11 +2,12 @@
 
 use super::run::Bench;
 
-const DOCUMENTS: [(&str, &str); 4] = [
+const DOCUMENTS: [(&str, &str); 5] = [
     ("README.md", include_str!("../../README.md")),
     ("CONTRIBUTING.md", include_str!("../../CONTRIBUTING.md")),
     ("docs/scenes.md", include_str!("../../docs/scenes.md")),
     ("docs/accuracy.md", include_str!("../../docs/accuracy.md")),
+    ("docs/golden.md", include_str!("../../docs/golden.md")),
 ];
 
 /// What follows `velour ` in a line of a block of code, or between backticks.

@@ -1,7 +1,7 @@
 //! The shipped files on the device against the golden numbers.
 
 use crate::{device, files};
-use velour::export::golden::{Golden, Row};
+use velour::export::golden::{Answers, Golden, Judgement, Mistake, Row};
 use velour::table::{GgxTable, SheenTable};
 
 /// What a language's shell supplies to `golden.wgsl`, and an entry point that runs each row.
@@ -31,7 +31,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-/// What a port that is given as `source` gives for each row, on textures of halves.
+/// What files and harness, given as `source`, give for each row, on textures of halves.
 fn answers(source: &str, rows: &[Row]) -> Vec<Vec<f32>> {
     let (mut inputs, mut places, mut count) = (Vec::<f32>::new(), Vec::<[u32; 4]>::new(), 0);
     for row in rows {
@@ -43,14 +43,16 @@ fn answers(source: &str, rows: &[Row]) -> Vec<Vec<f32>> {
     let (sheen, ggx) = (SheenTable::embedded(), GgxTable::embedded());
     let [sheen, ggx] = [(sheen.size()[0], sheen.texels()), (ggx.texture_size()[0], ggx.texels())]
         .map(|(width, texels)| device::texture(width as u32, &halves(texels).collect::<Vec<_>>()));
-    let source = [source, include_str!("golden.wgsl"), SHELL].concat();
+    let source = [source, SHELL].concat();
     let buffers = [bytemuck::cast_slice(&inputs), bytemuck::cast_slice(&places)];
     let mut given = device::run_with::<f32>(&source, &buffers, &[&sheen, &ggx], count).into_iter();
     rows.iter().map(|row| given.by_ref().take(row.outputs.len()).collect()).collect()
 }
 
+/// The shipped files and the harness.
 fn shipped() -> String {
-    ["ltc.wgsl", "ltc_sample.wgsl", "sheen.wgsl", "ggx.wgsl"].map(files::source).concat()
+    let files = ["ltc.wgsl", "ltc_sample.wgsl", "sheen.wgsl", "ggx.wgsl"].map(files::source).concat();
+    [&files, include_str!("golden.wgsl")].concat()
 }
 
 #[test]
@@ -77,4 +79,106 @@ fn the_shipped_files_give_the_golden_numbers() {
         println!("{}: {share:.2} of the tolerance at {id}", function.name);
     }
     assert!(off.is_empty(), "{} numbers\n{}", off.len(), off.join("\n"));
+}
+
+/// What `golden.wgsl` gives where it and the shipped files have been edited.
+fn judged(golden: &Golden, edits: &[(&str, &str)]) -> Judgement {
+    let mut source = shipped();
+    for (from, to) in edits {
+        assert!(source.contains(from), "'{from}' stands in the files");
+        source = source.replace(from, to);
+    }
+    let numbers = answers(&source, &golden.rows).into_iter().map(|row| row.into_iter().map(f64::from).collect());
+    let rows = golden.rows.iter().map(|row| row.id).zip(numbers).collect();
+    Judgement::of(&Answers { rows }, golden)
+}
+
+/// Each mistake as it is made in code.
+const MADE: [(Mistake, &[(&str, &str)]); 12] = [
+    (Mistake::TableTransposed, &[("vec2(alpha, mu)", "vec2(mu, alpha)")]),
+    (
+        Mistake::TableTransposed,
+        &[(
+            "vec2(clamp(roughness, 0.0, 1.0), sqrt(1.0 - cosine))",
+            "vec2(sqrt(1.0 - cosine), clamp(roughness, 0.0, 1.0))",
+        )],
+    ),
+    (
+        Mistake::MInvTransposed,
+        &[
+            (
+                "mat3x3(abr.x, 0.0, 0.0, 0.0, abr.x, 0.0, abr.y, 0.0, 1.0)",
+                "mat3x3(abr.x, 0.0, abr.y, 0.0, abr.x, 0.0, 0.0, 0.0, 1.0)",
+            ),
+            (
+                "mat3x3(aspect * c, 0.0, 0.0, 0.0, c, 0.0, lean * c, 0.0, 1.0)",
+                "mat3x3(aspect * c, 0.0, lean * c, 0.0, c, 0.0, 0.0, 0.0, 1.0)",
+            ),
+        ],
+    ),
+    // In the functions that read its entries.
+    (Mistake::MInvTransposed, &[("let b = m_inv[2].x;", "let b = m_inv[0].z;")]),
+    (Mistake::FrameTransposed, &[("return transpose(mat3x3(turn.x", "return (mat3x3(turn.x")]),
+    (
+        Mistake::FrameAboutLight,
+        &[(
+            "let frame = ltc_frame(normal, view);",
+            "var middle = vec3(0.0);
+            for (var k = 0u; k < count; k++) { middle += golden_vec3(13u + 3u * k) / f32(count); }
+            let frame = ltc_frame(normal, normalize(middle - position));",
+        )],
+    ),
+    (Mistake::BSign, &[("abr.y, 0.0, 1.0)", "-abr.y, 0.0, 1.0)"), ("lean * c, 0.0, 1.0)", "-lean * c, 0.0, 1.0)")]),
+    (Mistake::AlphaSquared, &[("vec2(alpha, mu)", "vec2(alpha * alpha, mu)")]),
+    (
+        Mistake::NoHalfTexel,
+        &[(
+            "let at = clamp(vec2(alpha, mu), vec2(0.0), vec2(1.0)) * vec2<f32>(last);",
+            "let at = clamp(clamp(vec2(alpha, mu), vec2(0.0), vec2(1.0)) * vec2<f32>(last + 1u) - 0.5, vec2(0.0), vec2<f32>(last));",
+        )],
+    ),
+    (Mistake::TurnForgotten, &[("return turned / max(abs(turned.x) + abs(turned.y), 1e-37);", "return turn;")]),
+    (
+        Mistake::TurnForgotten,
+        &[
+            ("turn = ltc_turn(turn, outline, GOLDEN_IDENTITY);", ""),
+            ("specular_turn = ltc_turn(specular_turn, outline, specular.m_inv);", ""),
+        ],
+    ),
+    (
+        Mistake::WindingReversed,
+        &[
+            ("var before = golden_vec3(10u + 3u * count);", "var before = golden_vec3(13u);"),
+            ("let corner = golden_vec3(13u + 3u * k);", "let corner = golden_vec3(10u + 3u * (count - k));"),
+        ],
+    ),
+];
+
+#[test]
+fn each_mistake_that_is_made_in_code_is_named() {
+    let golden = Golden::new();
+    for (mistake, edits) in MADE {
+        let judgement = judged(&golden, edits);
+        let (off, causes) = (judgement.rows_off().len(), &judgement.causes);
+        let counts: Vec<_> = causes.iter().map(|cause| (cause.mistake, cause.rows.len())).collect();
+        println!("{mistake:?}: {off} rows off, {counts:?}, none for {:?}", judgement.unexplained);
+        assert!(off >= 12, "{mistake:?} is off in {off} rows");
+        assert_eq!(causes[0].mistake, mistake);
+        assert!(10 * causes[0].rows.len() >= 9 * off, "{mistake:?} fits {} of {off} rows", causes[0].rows.len());
+    }
+}
+
+#[test]
+fn what_is_less_exact_than_the_files_is_off_and_no_mistake_fits() {
+    let golden = Golden::new();
+    // An ordinary cross product; a rough arctangent; a sampler's weights.
+    for (from, to) in [
+        ("return (p_high.yzx * q_high.zxy - p_high.zxy * q_high.yzx) + 0.5 * rest;", "return cross(p, q);"),
+        ("0.99999753", "0.9999"),
+        ("let weight = at - vec2<f32>(low);", "let weight = floor(256.0 * (at - vec2<f32>(low)) + 0.5) / 256.0;"),
+    ] {
+        let judgement = judged(&golden, &[(from, to)]);
+        let off = judgement.rows_off().len();
+        assert!(off >= 3 && judgement.unexplained.len() * 10 >= 9 * off, "'{to}': {:?}", judgement.causes);
+    }
 }
