@@ -81,16 +81,26 @@ fn the_shipped_files_give_the_golden_numbers() {
     assert!(off.is_empty(), "{} numbers\n{}", off.len(), off.join("\n"));
 }
 
-/// What `golden.wgsl` gives where it and the shipped files have been edited.
+/// Functions in which no mistake is made here, and that drivers take long to compile.
+const LEFT_OUT: [(&str, &str); 2] = [
+    ("ltc_sample_edge", "golden_put_fan(0u, golden_sample_edge());"),
+    (
+        "ltc_sample_point",
+        "golden_put_vec3(0u, ltc_sample_point(golden_fan(0u), golden_mat3(33u), golden_number(42u)));",
+    ),
+];
+
+/// What is said of files and harness that have been edited.
 fn judged(golden: &Golden, edits: &[(&str, &str)]) -> Judgement {
     let mut source = shipped();
-    for (from, to) in edits {
+    for (from, to) in edits.iter().copied().chain(LEFT_OUT.map(|(_, call)| (call, ""))) {
         assert!(source.contains(from), "'{from}' stands in the files");
         source = source.replace(from, to);
     }
-    let numbers = answers(&source, &golden.rows).into_iter().map(|row| row.into_iter().map(f64::from).collect());
-    let rows = golden.rows.iter().map(|row| row.id).zip(numbers).collect();
-    Judgement::of(&Answers { rows }, golden)
+    let is_left_out = |row: &Row| LEFT_OUT.iter().any(|(name, _)| *name == golden.functions[row.function].name);
+    let rows: Vec<Row> = golden.rows.iter().filter(|row| !is_left_out(row)).cloned().collect();
+    let numbers = answers(&source, &rows).into_iter().map(|row| row.into_iter().map(f64::from).collect());
+    Judgement::of(&Answers { rows: rows.iter().map(|row| row.id).zip(numbers).collect() }, golden)
 }
 
 /// Each mistake as it is made in code.
