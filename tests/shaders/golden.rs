@@ -1,5 +1,6 @@
 //! The shipped files on the device against the golden numbers.
 
+use crate::reserved::reserved;
 use crate::{device, files};
 use velour::export::golden::{Answers, Golden, Judgement, Mistake, Row};
 use velour::table::{GgxTable, SheenTable};
@@ -190,5 +191,27 @@ fn what_is_less_exact_than_the_files_is_off_and_no_mistake_fits() {
         let judgement = judged(&golden, &[(from, to)]);
         let off = judgement.rows_off().len();
         assert!(off >= 3 && judgement.unexplained.len() * 10 >= 9 * off, "'{to}': {:?}", judgement.causes);
+    }
+}
+
+/// Other languages get the harness by the same translation as the files: it has no more of WGSL than they have.
+#[test]
+fn the_harness_can_be_carried_over_like_the_files() {
+    let harness = include_str!("golden.wgsl");
+    assert_eq!(reserved(harness), [""; 0]);
+    let code = harness.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<String>();
+    for word in ["array", "@", "var<", "ptr", "switch", "while", "loop", "vec3f", "fn golden_number(", "fn golden_put("]
+    {
+        assert!(!code.contains(word), "{word}");
+    }
+    assert!(harness.lines().count() <= 200);
+    // A branch for each function, in the order of the numbers.
+    for (index, function) in Golden::new().functions.iter().enumerate() {
+        let (_, branch) = harness.split_once(&format!("if function == {index}u {{")).expect("each has a branch");
+        let call = format!(
+            "{}(",
+            function.name.replace("ltc_sample_edge", "golden_sample_edge").replace("lights", "golden_lights")
+        );
+        assert!(branch.split('}').next().is_some_and(|branch| branch.contains(&call)), "{index} is {}", function.name);
     }
 }
