@@ -104,8 +104,11 @@ fn judged(golden: &Golden, edits: &[(&str, &str)]) -> Judgement {
     Judgement::of(&Answers { rows: rows.iter().map(|row| row.id).zip(numbers).collect() }, golden)
 }
 
+/// Text that is replaced, and by what.
+type Edit = (&'static str, &'static str);
+
 /// Each mistake as it is made in code.
-const MADE: [(Mistake, &[(&str, &str)]); 12] = [
+const MADE: [(Mistake, &[Edit]); 12] = [
     (Mistake::TableTransposed, &[("vec2(alpha, mu)", "vec2(mu, alpha)")]),
     (
         Mistake::TableTransposed,
