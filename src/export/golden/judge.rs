@@ -6,7 +6,7 @@ use super::mistake::Mistake;
 use super::numbers::Golden;
 
 /// A mistake fits a number that is within so many tolerances of what it gives,
-const FITTING: f64 = 4.0;
+const FITTING: f64 = 2.0;
 /// or within this share of what it changes: samplers' weights have few digits.
 const SHARE: f64 = 0.05;
 
