@@ -2,3 +2,4 @@
 //! forms that they read. Everything is made in memory; whoever asks for it writes the files.
 
 pub mod shaders;
+pub mod tables;

@@ -77,7 +77,7 @@ pub enum Command {
     /// Makes all figures and the page that shows them: the table, its lobes and errors (.svg), the paper's and our
     /// comparisons (.png); what is there already, made with the same settings, is left
     Figures(Figures),
-    /// Writes what other engines take: shaders in their languages
+    /// Writes what other engines take: shaders in their languages, tables in their forms
     #[command(subcommand)]
     Export(Export),
     /// Prints adapters, limits, versions and table checksums

@@ -1,6 +1,7 @@
 //! `velour export`: what other engines take of Velour.
 
 mod shaders;
+mod tables;
 
 use clap::Subcommand;
 
@@ -11,10 +12,13 @@ use crate::failure::Failure;
 pub enum Export {
     /// The shader files that are made to be copied, in another language
     Shaders(shaders::Shaders),
+    /// The tables in the forms that engines take; each line that it prints says how a file is laid out
+    Tables(tables::Tables),
 }
 
 pub fn run(export: &Export) -> Result<(), Failure> {
     match export {
         Export::Shaders(arguments) => shaders::run(arguments),
+        Export::Tables(arguments) => tables::run(arguments),
     }
 }
