@@ -59,7 +59,7 @@ pub fn glsl(texture: &Texture) -> String {
     let data = data.trim_end().trim_end_matches(',');
     format!(
         "{}const highp uvec2 {upper}[{count}] = uvec2[{count}](\n{data}\n);\n\n\
-         // The texel in column x of {width} and row y of {height}.\nhighp vec4 {name}_texel(highp int x, highp int y) {{\n    \
+         // The texel in column x of {width} and row y of {height}.\nhighp vec4 {name}_texel(int x, int y) {{\n    \
          highp uvec2 halves = {upper}[{width} * y + x];\n    \
          return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));\n}}\n",
         head(texture, Form::Glsl)
