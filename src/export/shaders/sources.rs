@@ -23,7 +23,7 @@ impl Source {
 }
 
 /// All of them, each after those that it is copied with.
-pub const SOURCES: [Source; 4] = [
+pub const SOURCES: [Source; 5] = [
     Source {
         stem: "ltc",
         text: include_str!("../../../shaders/ltc.wgsl"),
@@ -43,6 +43,11 @@ pub const SOURCES: [Source; 4] = [
         stem: "sheen",
         text: include_str!("../../../shaders/sheen.wgsl"),
         given: "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    },
+    Source {
+        stem: "sheen_fit",
+        text: include_str!("../../../shaders/sheen_fit.wgsl"),
+        given: "fn example(alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
     },
     Source {
         stem: "ggx",
