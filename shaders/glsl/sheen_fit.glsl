@@ -32,8 +32,8 @@ SheenFitLobe sheen_fit_lobe(float alpha, float mu) {
 }
 
 float sheen_fit_a(float y, float x) {
-    float constant = 0.0712243 + x * (2.08384 + x * (0.447737 + x * 1.33883));
-    float p = constant + y * (-1.44859 + x * (5.11827 - x * 1.43431) + y * (11.8824 - x * 4.78599 - y * 2.86849));
+    float above = 0.0712243 + x * (2.08384 + x * (0.447737 + x * 1.33883));
+    float p = above + y * (-1.44859 + x * (5.11827 - x * 1.43431) + y * (11.8824 - x * 4.78599 - y * 2.86849));
     float q = 1.0 + x * (8.39524 + x * 57.9343) + y * (-18.981 - x * 20.0247 + y * 97.6674);
     return p * p / q;
 }

@@ -35,8 +35,8 @@ inline SheenFitLobe sheen_fit_lobe(float alpha, float mu) {
 }
 
 inline float sheen_fit_a(float y, float x) {
-    float constant = 0.0712243f + x * (2.08384f + x * (0.447737f + x * 1.33883f));
-    float p = constant + y * (-1.44859f + x * (5.11827f - x * 1.43431f) + y * (11.8824f - x * 4.78599f - y * 2.86849f));
+    float above = 0.0712243f + x * (2.08384f + x * (0.447737f + x * 1.33883f));
+    float p = above + y * (-1.44859f + x * (5.11827f - x * 1.43431f) + y * (11.8824f - x * 4.78599f - y * 2.86849f));
     float q = 1.0f + x * (8.39524f + x * 57.9343f) + y * (-18.981f - x * 20.0247f + y * 97.6674f);
     return p * p / q;
 }
