@@ -6,7 +6,7 @@ use wgpu::naga::{self, TypeInner};
 use super::reserved::reserved;
 
 /// Each file, with the declarations that its header's example takes for granted.
-const FILES: [(&str, &str); 4] = [
+const FILES: [(&str, &str); 5] = [
     (
         "ltc.wgsl",
         "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
@@ -23,6 +23,10 @@ const FILES: [(&str, &str); 4] = [
     (
         "sheen.wgsl",
         "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    ),
+    (
+        "sheen_fit.wgsl",
+        "fn example(alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
     ),
     (
         "ggx.wgsl",
