@@ -1,34 +1,10 @@
 //! The shipped files as text: what people who copy them rely on before anything runs.
 
 use std::path::Path;
+use velour::export::shaders::{SOURCES, Source};
 use wgpu::naga::{self, TypeInner};
 
 use super::reserved::reserved;
-
-/// Each file, with the declarations that its header's example takes for granted.
-const FILES: [(&str, &str); 4] = [
-    (
-        "ltc.wgsl",
-        "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
-            var outline = ltc_begin(frame * (last - position));
-            var sum = 0.0;
-            var turn = LTC_LEVEL;",
-    ),
-    (
-        "ltc_sample.wgsl",
-        "struct Outline { p: vec3<f32>, q: vec3<f32>, normal: vec3<f32>, sine: f32 }
-        fn example(outline: Outline, m_inv: mat3x3<f32>, number: f32, form_factor: f32) {
-            var fan = ltc_sample_begin(number, form_factor);",
-    ),
-    (
-        "sheen.wgsl",
-        "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
-    ),
-    (
-        "ggx.wgsl",
-        "fn example(table: texture_2d<f32>, roughness: f32, mu: f32, light: vec3<f32>, f0: vec3<f32>, f90: vec3<f32>, form_factor: f32) {",
-    ),
-];
 
 const HEADER: [&str; 8] = [
     "// SPDX-License-Identifier: ",
@@ -40,6 +16,11 @@ const HEADER: [&str; 8] = [
     "// Ranges: ",
     "// Greatest error: ",
 ];
+
+/// Those that compile alone.
+fn copied() -> impl Iterator<Item = &'static Source> {
+    SOURCES.iter().filter(|source| source.needs.is_empty())
+}
 
 /// The text of a file at the top of `shaders/`.
 pub fn source(name: &str) -> String {
@@ -107,16 +88,14 @@ fn has_stem(name: &str, stem: &str) -> bool {
 
 #[test]
 fn each_file_compiles_alone_and_is_made_to_be_copied() {
-    for (name, _) in FILES {
-        let stem = name.trim_end_matches(".wgsl");
-        assert_eq!(problems(stem, &source(name)), Vec::<String>::new(), "{name}");
+    for file in copied() {
+        assert_eq!(problems(file.stem, file.text), Vec::<String>::new(), "{}.wgsl", file.stem);
     }
 }
 
 #[test]
 fn the_examples_in_the_headers_compile() {
-    for (name, given) in FILES {
-        let source = source(name);
+    for Source { stem: name, text: source, given, .. } in copied() {
         let examples: Vec<&str> = source.lines().filter_map(|line| line.strip_prefix("// Example: ")).collect();
         assert_eq!(examples.len(), 1, "{name}");
         let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);

@@ -16,6 +16,7 @@ mod sampler;
 mod sampler_points;
 mod sampling;
 mod sheen;
+mod sheen_fit;
 mod sweeps;
 mod translated;
 mod vector;

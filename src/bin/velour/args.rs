@@ -78,7 +78,7 @@ pub enum Command {
     /// Makes all figures and the page that shows them: the table, its lobes and errors (.svg), the paper's and our
     /// comparisons (.png); what is there already, made with the same settings, is left
     Figures(Figures),
-    /// Writes what other engines take: shaders in their languages, golden numbers to check a port by
+    /// Writes what other engines take: shaders in their languages, tables in their forms, golden numbers to check a port by
     #[command(subcommand)]
     Export(Export),
     /// Judges a port of the shaders by the golden numbers: which of its numbers are off, and which mistake fits them
