@@ -17,11 +17,6 @@ const HEADER: [&str; 8] = [
     "// Greatest error: ",
 ];
 
-/// Those that compile alone.
-fn copied() -> impl Iterator<Item = &'static Source> {
-    SOURCES.iter().filter(|source| source.needs.is_empty())
-}
-
 /// The text of a file at the top of `shaders/`.
 pub fn source(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders").join(name);
@@ -36,8 +31,8 @@ fn compile(source: &str) -> Result<naga::Module, String> {
     Ok(module)
 }
 
-/// Breaches of the rules for files that people copy; `stem` is the file's name without its extension.
-fn problems(stem: &str, source: &str) -> Vec<String> {
+/// Breaches of the rules for files that people copy; `stem` is the file's name without its extension, and it compiles behind `before`.
+fn problems(stem: &str, before: &str, source: &str) -> Vec<String> {
     let mut problems = Vec::new();
     let lines: Vec<&str> = source.lines().collect();
     if lines.len() > 200 {
@@ -53,7 +48,7 @@ fn problems(stem: &str, source: &str) -> Vec<String> {
     {
         problems.push("preprocessor or directive".to_owned());
     }
-    let module = match compile(source) {
+    let module = match compile(&format!("{before}{source}")) {
         Ok(module) => module,
         Err(error) => return vec![error],
     };
@@ -88,17 +83,18 @@ fn has_stem(name: &str, stem: &str) -> bool {
 
 #[test]
 fn each_file_compiles_alone_and_is_made_to_be_copied() {
-    for file in copied() {
-        assert_eq!(problems(file.stem, file.text), Vec::<String>::new(), "{}.wgsl", file.stem);
+    for file in SOURCES {
+        assert_eq!(problems(file.stem, &file.before(), file.text), Vec::<String>::new(), "{}.wgsl", file.stem);
     }
 }
 
 #[test]
 fn the_examples_in_the_headers_compile() {
-    for Source { stem: name, text: source, given, .. } in copied() {
+    for file in SOURCES {
+        let Source { stem: name, text: source, given, .. } = file;
         let examples: Vec<&str> = source.lines().filter_map(|line| line.strip_prefix("// Example: ")).collect();
         assert_eq!(examples.len(), 1, "{name}");
-        let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);
+        let whole = format!("{}{source}\n{given}\n{}\n}}\n", file.before(), examples[0]);
         compile(&whole).unwrap_or_else(|error| panic!("{name}: {error}"));
         let misspelt = whole
             .replace("let radiance", "let radiance = nobody; let x")
@@ -123,7 +119,7 @@ fn the_readme_shows_the_loop_over_lights() {
 fn a_file_that_breaks_a_rule_is_found_out() {
     let good =
         HEADER.map(|begin| format!("{begin}some words\n")).concat() + "\nfn ltc_one() -> f32 {\n    return 1.0;\n}\n";
-    assert_eq!(problems("ltc", &good), Vec::<String>::new());
+    assert_eq!(problems("ltc", "", &good), Vec::<String>::new());
     for (addition, problem) in [
         ("fn other() {}", "name other"),
         ("struct Other { x: f32 }", "name Other"),
@@ -138,8 +134,8 @@ fn a_file_that_breaks_a_rule_is_found_out() {
         ("// #define LTC", "preprocessor or directive"),
         (&"\n".repeat(200), "213 lines"),
     ] {
-        assert_eq!(problems("ltc", &format!("{good}{addition}\n")), [problem], "{addition}");
+        assert_eq!(problems("ltc", "", &format!("{good}{addition}\n")), [problem], "{addition}");
     }
-    assert_eq!(problems("ltc", &good.replace("// Ranges", "// Extent")), ["header"]);
-    assert_eq!(problems("ltc", &good.replace("return 1.0", "return 1u")).len(), 1);
+    assert_eq!(problems("ltc", "", &good.replace("// Ranges", "// Extent")), ["header"]);
+    assert_eq!(problems("ltc", "", &good.replace("return 1.0", "return 1u")).len(), 1);
 }

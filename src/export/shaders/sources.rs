@@ -27,6 +27,11 @@ impl Source {
         translate(self.text, self.given, &known, language)
     }
 
+    /// The WGSL before which it compiles: what it needs, and what is left to whoever copies it.
+    pub fn before(&self) -> String {
+        self.needed().map(|source| source.text).chain([self.theirs]).collect()
+    }
+
     /// Those without which it does not compile.
     pub fn needed(&self) -> impl Iterator<Item = &'static Self> {
         let needs = self.needs;
