@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use half::f16;
-use velour::export::tables::{Difference, Form, Texture};
+use velour::export::tables::{Difference, Form, Texture, resample, resampled};
 use velour::table::{GgxTable, SheenTable};
 
 /// What a reader found: width, height, and texels in rows from y = 0 on.
@@ -100,10 +100,17 @@ fn ktx2_opens_and_describes_its_texels() {
         assert_eq!((header.pixel_depth, header.layer_count, header.face_count, header.level_count), (0, 0, 1, 1));
         assert_eq!(header.supercompression_scheme, None);
         let basic = file.basic_dfd().expect("a basic descriptor");
-        assert_eq!((file.color_model(), file.transfer_function()), (Some(ktx2::ColorModel::RGBSDA), Some(ktx2::TransferFunction::Linear)));
+        assert_eq!(
+            (file.color_model(), file.transfer_function()),
+            (Some(ktx2::ColorModel::RGBSDA), Some(ktx2::TransferFunction::Linear))
+        );
         assert_eq!((file.color_primaries(), file.is_alpha_premultiplied()), (None, Some(false)));
         assert_eq!(basic.bytes_planes, [8, 0, 0, 0, 0, 0, 0, 0]);
-        let samples: Vec<_> = basic.sample_information.iter().map(|sample| (sample.bit_offset, sample.bit_length.get(), sample.channel_type)).collect();
+        let samples: Vec<_> = basic
+            .sample_information
+            .iter()
+            .map(|sample| (sample.bit_offset, sample.bit_length.get(), sample.channel_type))
+            .collect();
         assert_eq!(samples, [(0, 16, 0), (16, 16, 1), (32, 16, 2), (48, 16, 15)]);
         let notes: Vec<(&str, &[u8])> = file.key_value_data().collect();
         assert!(notes.is_sorted());
@@ -167,7 +174,8 @@ fn js_is_an_object_of_halves() {
         let (width, rest) = rest.split_once(", height: ").unwrap();
         let (height, rest) = rest.split_once(", data: new Uint16Array([").unwrap();
         let data = rest.strip_suffix("]) };").unwrap().trim_end_matches(',');
-        let bytes: Vec<u8> = data.split(',').flat_map(|half| half.trim().parse::<u16>().unwrap().to_le_bytes()).collect();
+        let bytes: Vec<u8> =
+            data.split(',').flat_map(|half| half.trim().parse::<u16>().unwrap().to_le_bytes()).collect();
         Found::of_halves([width.parse().unwrap(), height.parse().unwrap()], &bytes)
     });
 }
@@ -192,7 +200,8 @@ fn c_compiles() {
              int size[2] = {{ {upper}_WIDTH, {upper}_HEIGHT }};\nfwrite(size, sizeof size, 1, stdout);\n\
              fwrite({name}, sizeof {name}, 1, stdout);\nreturn 0;\n}}\n"
         );
-        let out = built(texture, Form::C, &program, &["cc", "-std=c89", "-pedantic", "-Wall", "-Werror", "-o", "program"]);
+        let out =
+            built(texture, Form::C, &program, &["cc", "-std=c89", "-pedantic", "-Wall", "-Werror", "-o", "program"]);
         let side = |at: usize| i32::from_ne_bytes(out[4 * at..4 * at + 4].try_into().unwrap()) as usize;
         Found::of_floats([side(0), side(1)], &out[8..])
     });
@@ -235,7 +244,18 @@ fn glsl_compiles_and_packs_halves_as_unpack_half_2x16_takes_them() {
         let numbers = parts(array.init).into_iter().flat_map(&parts).map(|at| number(&at));
         let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
         // What the text says of its size is in how it finds a row.
-        let width: usize = text.split_once(&format!("{upper}[")).unwrap().1.split_once(" * y + x]").unwrap().0.rsplit('[').next().unwrap().parse().unwrap();
+        let width: usize = text
+            .split_once(&format!("{upper}["))
+            .unwrap()
+            .1
+            .split_once(" * y + x]")
+            .unwrap()
+            .0
+            .rsplit('[')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap();
         Found::of_halves([width, bytes.len() / 8 / width], &bytes)
     });
 }
@@ -258,7 +278,10 @@ fn each_file_that_holds_text_says_how_it_is_laid_out() {
 fn differences_of_tables_are_found_where_they_are() {
     let table = SheenTable::embedded();
     let same = Difference::between(&table, &table);
-    assert_eq!((same.max, same.mean), ([0.0; 3], [0.0; 3]));
+    assert_eq!((same.max, same.mean, same.lobe), ([0.0; 3], [0.0; 3], [0.0; 2]));
+    // Half as bright: lobes are half as far from each other as from none.
+    let dim = SheenTable::new([32, 32], table.cells().iter().map(|[a, b, r]| [*a, *b, r / 2.0]).collect());
+    assert!(Difference::between(&dim, &table).lobe.iter().all(|distance| (distance - 0.5).abs() < 1e-12));
     let mut cells = table.cells().to_vec();
     cells[32 * 20 + 7][1] -= 0.25;
     let other = Difference::between(&table, &SheenTable::new([32, 32], cells));
@@ -266,4 +289,38 @@ fn differences_of_tables_are_found_where_they_are() {
     // One node: itself, its four neighbours midway at half of it, and four at a quarter.
     assert!((other.max[1] - 0.25).abs() < 1e-12);
     assert!((other.mean[1] - 0.25 * 4.0 / (63.0 * 63.0)).abs() < 1e-12, "{}", other.mean[1]);
+}
+
+#[test]
+fn resampling_to_the_same_nodes_changes_nothing() {
+    let table = SheenTable::embedded();
+    let again = Difference::between(&resample(&table, 32), &table);
+    assert!(again.max.iter().all(|apart| *apart < 1e-6), "{again}");
+}
+
+#[test]
+fn a_small_table_is_nearer_than_one_of_every_other_node() {
+    let table = SheenTable::embedded();
+    let at = |k: usize| k as f64 / 15.0;
+    let looked_up = SheenTable::new([16, 16], (0..256).map(|k| table.lookup(at(k / 16), at(k % 16))).collect());
+    let [small, looked_up] =
+        [resample(&table, 16), looked_up].map(|table| Difference::between(&table, &SheenTable::embedded()));
+    println!("{small}\n{looked_up}");
+    for k in 0..3 {
+        assert!(small.mean[k] < 0.7 * looked_up.mean[k] && small.max[k] < looked_up.max[k], "{small}; {looked_up}");
+    }
+    // What docs/tables.md states.
+    assert!(small.mean[2] < 0.0016 && small.lobe[1] < 0.05, "{small}");
+}
+
+#[test]
+fn tables_of_all_sizes_are_whole() {
+    for side in [2, 3, 16, 128] {
+        let (texture, _) = resampled(side);
+        assert_eq!(texture.size, [side, side]);
+        let table = SheenTable::from_csv(&String::from_utf8(texture.file(Form::Csv)).unwrap()).unwrap();
+        assert_eq!(table.size(), [side, side]);
+        assert_eq!(SheenTable::from_dds(&texture.file(Form::Dds)).unwrap().size(), [side, side]);
+        assert!(table.cells().iter().all(|[a, b, r]| *a > 0.0 && *b <= 0.0 && (0.0..=1.0).contains(r)), "{side}");
+    }
 }

@@ -24,10 +24,7 @@ const FILES: [(&str, &str); 5] = [
         "sheen.wgsl",
         "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
     ),
-    (
-        "sheen_fit.wgsl",
-        "fn example(alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
-    ),
+    ("sheen_fit.wgsl", "fn example(alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {"),
     (
         "ggx.wgsl",
         "fn example(table: texture_2d<f32>, roughness: f32, mu: f32, light: vec3<f32>, f0: vec3<f32>, f90: vec3<f32>, form_factor: f32) {",

@@ -134,6 +134,10 @@ fn pictures_differ_by_hundredths() {
             greatest = greatest.max((found - expected).abs());
         }
     }
-    println!("relative {:.4}, greatest {greatest:.4}, mean radiance {:.4}", error / sum, sum / (5.0 * points.len() as f64));
+    println!(
+        "relative {:.4}, greatest {greatest:.4}, mean radiance {:.4}",
+        error / sum,
+        sum / (5.0 * points.len() as f64)
+    );
     assert!(error / sum < 0.02 && greatest < 0.015);
 }

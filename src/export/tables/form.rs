@@ -27,18 +27,8 @@ pub enum Form {
 
 impl Form {
     /// All of them.
-    pub const ALL: [Self; 10] = [
-        Self::Dds,
-        Self::Ktx2,
-        Self::Csv,
-        Self::Npy,
-        Self::Exr,
-        Self::Bin,
-        Self::Js,
-        Self::C,
-        Self::Rust,
-        Self::Glsl,
-    ];
+    pub const ALL: [Self; 10] =
+        [Self::Dds, Self::Ktx2, Self::Csv, Self::Npy, Self::Exr, Self::Bin, Self::Js, Self::C, Self::Rust, Self::Glsl];
 
     /// The extension of a file's name.
     pub fn extension(self) -> &'static str {
