@@ -30,7 +30,9 @@ pub fn resample(table: &SheenTable, side: usize) -> SheenTable {
             DMatrix::from_fn(samples, samples, |i, j| table.lookup(node(i, samples), node(j, samples))[column]);
         &solve * values * solve.transpose()
     });
-    let within = [(0.0, f64::MAX), (f64::MIN, 0.0), (0.0, 1.0)];
+    // An a of 0 would have no inverse, where the table has one.
+    let least_a = table.cells().iter().map(|[a, ..]| *a).fold(f64::MAX, f64::min);
+    let within = [(least_a, f64::MAX), (f64::MIN, 0.0), (0.0, 1.0)];
     let number = |column: usize, i, j| {
         let (least, most) = within[column];
         // Adding 0 turns -0 into 0.
