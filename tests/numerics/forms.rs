@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use half::f16;
-use velour::export::tables::{Difference, Form, Texture};
+use velour::export::tables::{Difference, Form, Texture, resample, resampled};
 use velour::table::{GgxTable, SheenTable};
 
 /// What a reader found: width, height, and texels in rows from y = 0 on.
@@ -278,7 +278,10 @@ fn each_file_that_holds_text_says_how_it_is_laid_out() {
 fn differences_of_tables_are_found_where_they_are() {
     let table = SheenTable::embedded();
     let same = Difference::between(&table, &table);
-    assert_eq!((same.max, same.mean), ([0.0; 3], [0.0; 3]));
+    assert_eq!((same.max, same.mean, same.lobe), ([0.0; 3], [0.0; 3], [0.0; 2]));
+    // Half as bright: lobes are half as far from each other as from none.
+    let dim = SheenTable::new([32, 32], table.cells().iter().map(|[a, b, r]| [*a, *b, r / 2.0]).collect());
+    assert!(Difference::between(&dim, &table).lobe.iter().all(|distance| (distance - 0.5).abs() < 1e-12));
     let mut cells = table.cells().to_vec();
     cells[32 * 20 + 7][1] -= 0.25;
     let other = Difference::between(&table, &SheenTable::new([32, 32], cells));
@@ -286,4 +289,38 @@ fn differences_of_tables_are_found_where_they_are() {
     // One node: itself, its four neighbours midway at half of it, and four at a quarter.
     assert!((other.max[1] - 0.25).abs() < 1e-12);
     assert!((other.mean[1] - 0.25 * 4.0 / (63.0 * 63.0)).abs() < 1e-12, "{}", other.mean[1]);
+}
+
+#[test]
+fn resampling_to_the_same_nodes_changes_nothing() {
+    let table = SheenTable::embedded();
+    let again = Difference::between(&resample(&table, 32), &table);
+    assert!(again.max.iter().all(|apart| *apart < 1e-6), "{again}");
+}
+
+#[test]
+fn a_small_table_is_nearer_than_one_of_every_other_node() {
+    let table = SheenTable::embedded();
+    let at = |k: usize| k as f64 / 15.0;
+    let looked_up = SheenTable::new([16, 16], (0..256).map(|k| table.lookup(at(k / 16), at(k % 16))).collect());
+    let [small, looked_up] =
+        [resample(&table, 16), looked_up].map(|table| Difference::between(&table, &SheenTable::embedded()));
+    println!("{small}\n{looked_up}");
+    for k in 0..3 {
+        assert!(small.mean[k] < 0.7 * looked_up.mean[k] && small.max[k] < looked_up.max[k], "{small}; {looked_up}");
+    }
+    // What docs/tables.md states.
+    assert!(small.mean[2] < 0.0016 && small.lobe[1] < 0.05, "{small}");
+}
+
+#[test]
+fn tables_of_all_sizes_are_whole() {
+    for side in [2, 3, 16, 128] {
+        let (texture, _) = resampled(side);
+        assert_eq!(texture.size, [side, side]);
+        let table = SheenTable::from_csv(&String::from_utf8(texture.file(Form::Csv)).unwrap()).unwrap();
+        assert_eq!(table.size(), [side, side]);
+        assert_eq!(SheenTable::from_dds(&texture.file(Form::Dds)).unwrap().size(), [side, side]);
+        assert!(table.cells().iter().all(|[a, b, r]| *a > 0.0 && *b <= 0.0 && (0.0..=1.0).contains(r)), "{side}");
+    }
 }

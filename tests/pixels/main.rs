@@ -14,6 +14,7 @@ mod documented;
 mod edge_on;
 mod embedded;
 mod emitters;
+mod exported_tables;
 mod exposures;
 mod extremes;
 mod far;

@@ -16,9 +16,11 @@ mod exr;
 mod form;
 mod ktx2;
 mod npy;
+mod resample;
 mod source;
 mod texture;
 
 pub use difference::Difference;
 pub use form::Form;
+pub use resample::{SIDES, resample, resampled};
 pub use texture::Texture;

@@ -3,16 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use velour::export::tables::{Difference, Form, Texture};
+use velour::export::tables::{Form, SIDES, Texture, resampled};
 use velour::file::write_atomically;
-use velour::fit;
-use velour::table::SheenTable;
 
 use crate::console::say;
 use crate::failure::Failure;
-use crate::fit::resolutions;
 use crate::output::prepare;
-use crate::progress::with_progress;
 
 /// The flags of `velour export tables`.
 #[derive(Args)]
@@ -26,8 +22,9 @@ pub struct Tables {
     /// Which table: the sheen's (alpha along x, mu along y), or the specular base's (roughness along x, sqrt(1 - mu) along y) [default: both]
     #[arg(long, value_enum)]
     only: Option<Table>,
-    /// Nodes a side of the sheen's table, 2 to 128: fitted anew, and held against the shipped one [default: 32, as shipped]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(resolutions()))]
+    /// Nodes a side of the sheen's table, 2 to 128: resampled by least squares, with the difference printed [default: 32, as
+    /// shipped]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(*SIDES.start() as i64..=*SIDES.end() as i64))]
     size: Option<u16>,
 }
 
@@ -95,7 +92,9 @@ pub fn run(arguments: &Tables) -> Result<(), Failure> {
     let paths: Vec<PathBuf> = names.flat_map(|(_, it)| forms.iter().map(|form| folder.join(it.name(*form)))).collect();
     prepare(folder, &paths)?;
     if let Some(size) = arguments.size {
-        sheen = fitted(usize::from(size));
+        let difference;
+        (sheen, difference) = resampled(usize::from(size));
+        say(difference);
     }
     let textures = [(Table::Sheen, sheen), (Table::Ggx, ggx)].into_iter().filter(|(table, _)| wanted(*table));
     for (_, texture) in textures {
@@ -106,13 +105,4 @@ pub fn run(arguments: &Tables) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// The sheen's table with `size` nodes a side, made from nothing; says what that costs.
-fn fitted(size: usize) -> Texture {
-    let (table, report) = with_progress("sheen", |step| fit::sheen::fit(size, step));
-    say(&report);
-    let difference = Difference::between(&table, &SheenTable::embedded());
-    say(format!("Difference from the shipped table: {difference}."));
-    Texture::sheen(&table, table.to_csv(&report.header()))
 }
