@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::run::Bench;
 
 /// What a right port prints, changed by `edit`: a row's function and its outputs.
-fn port(edit: impl Fn(&str, &mut Vec<f64>)) -> String {
+fn port(edit: impl Fn(&str, &mut [f64])) -> String {
     let golden: Value = serde_json::from_str(include_str!("../../tables/golden.json")).unwrap();
     let line = |row: &Value| {
         let mut outputs: Vec<f64> = row["outputs"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
@@ -19,7 +19,7 @@ fn port(edit: impl Fn(&str, &mut Vec<f64>)) -> String {
 }
 
 /// b has the wrong sign in the sheen's lobe, and one number is none at all.
-fn wrong(function: &str, outputs: &mut Vec<f64>) {
+fn wrong(function: &str, outputs: &mut [f64]) {
     match function {
         "sheen_lobe" => outputs[6] = -outputs[6],
         "ltc_begin" => outputs[0] = f64::NAN,
