@@ -62,7 +62,7 @@ fn a_right_port_passes_and_a_wrong_one_is_told_why() {
         assert!(said.contains(part), "no '{part}' in {said}");
     }
     assert!(
-        said.contains("m_inv[2].x is ") && said.contains(" and 14 more rows") && said.contains("NaN instead of"),
+        said.contains("m_inv[2].x is ") && said.contains(" and 14 rows more") && said.contains("NaN instead of"),
         "{said}"
     );
     assert!(said.lines().count() < 40, "{said}");
