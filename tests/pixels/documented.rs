@@ -20,6 +20,13 @@ fn commands(text: &str) -> impl Iterator<Item = &str> {
     lines.map(|line| line.split(" #").next().unwrap_or(line)).chain(spans)
 }
 
+/// The words that name a command: the first, and for `export` what is exported.
+fn named(command: &str) -> String {
+    let count = if command.starts_with("export ") { 2 } else { 1 };
+    let words = command.split_whitespace().take(count).take_while(|word| !word.starts_with('-'));
+    words.collect::<Vec<_>>().join(" ")
+}
+
 /// The flags of a command that its help does not know.
 fn unknown<'a>(command: &'a str, help: &str) -> Vec<&'a str> {
     let flags = command.split_whitespace().filter(|word| word.starts_with('-'));
@@ -33,10 +40,7 @@ fn commands_in_documents_have_the_flags_that_they_show() {
     let mut count = 0;
     for (name, text) in DOCUMENTS {
         for command in commands(text) {
-            // What `export` exports is a command of its own.
-            let depth = if command.starts_with("export ") { 2 } else { 1 };
-            let words: Vec<&str> = command.split_whitespace().take(depth).take_while(|word| !word.starts_with('-')).collect();
-            let help = bench.run(&format!("{} --help", words.join(" "))).stdout;
+            let help = bench.run(&format!("{} --help", named(command))).stdout;
             assert_eq!(unknown(command, &help), [""; 0], "{name}: velour {command}");
             count += 1;
         }
