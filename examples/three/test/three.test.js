@@ -5,6 +5,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { dirname } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
@@ -15,11 +16,12 @@ import { serve } from '../server.js';
 import { makeScene } from './make_scene.js';
 
 const [WIDTH, HEIGHT] = [256, 192];
-// Greatest and mean difference where both drew the same thing, in a picture whose surfaces have radiances of about 1.
+// A pixel agrees where it differs by no more than this, times its radiance where that is above 1.
 const GREATEST = 1e-3;
-const MEAN = 1e-4;
-// Pixels past GREATEST: those on silhouettes, whose centre one rasteriser covers and the other does not.
-const OUTLIERS = 40;
+// Chromium draws on SwiftShader; where its driver for other programs is found, velour does too. Other drivers rasterise on another grid, which
+// moves silhouettes and what is interpolated by up to 1/16 pixel. The mean difference is over the mean radiance.
+const SWIFTSHADER = ['/usr/lib/chromium', dirname(process.env.CHROMIUM ?? '/')].map((folder) => `${folder}/vk_swiftshader_icd.json`).find(existsSync);
+const LIMITS = SWIFTSHADER ? { outliers: 0, mean: 5e-5 } : { outliers: 2000, mean: 5e-3 };
 
 const OUT = fileURLToPath(new URL('out/', import.meta.url));
 const FLAGS = [
@@ -32,7 +34,8 @@ function velour(...args) {
     const paths = [process.env.VELOUR, `${target}release/velour`, `${target}debug/velour`];
     const path = paths.find((candidate) => candidate && existsSync(candidate));
     assert.ok(path, 'there is no velour to compare with: run `cargo build --release` in the repository, or set VELOUR');
-    return execFileSync(path, args, { encoding: 'utf8' });
+    const env = { ...process.env, ...(SWIFTSHADER && { VK_DRIVER_FILES: SWIFTSHADER }) };
+    return execFileSync(path, args, { encoding: 'utf8', env, stdio: ['ignore', 'pipe', 'pipe'] });
 }
 
 let browser, server, url, truth;
@@ -77,51 +80,53 @@ async function drawn(flavour, { isOurs = true, mistakes = [] } = {}) {
 }
 
 function difference(pixels) {
-    let [sum, count, outliers, greatest, greatestOutlier] = [0, 0, 0, 0, 0];
-    for (let at = 0; at < pixels.length; at += 4) {
-        const errors = [0, 1, 2].map((channel) => Math.abs(pixels[at + channel] - truth[at + channel]));
-        const worst = Math.max(...errors);
-        assert.ok(Number.isFinite(worst));
-        if (worst > GREATEST) {
-            outliers++;
-            greatestOutlier = Math.max(greatestOutlier, worst);
-        } else {
-            greatest = Math.max(greatest, worst);
-            sum += errors[0] + errors[1] + errors[2];
-            count += 3;
-        }
-    }
-    return { mean: sum / count, greatest, outliers, greatestOutlier };
+    let [sum, radiance, outliers, greatest] = [0, 0, 0, 0];
+    pixels.forEach((value, at) => {
+        if (at % 4 === 3) return;
+        const error = Math.abs(value - truth[at]);
+        assert.ok(Number.isFinite(error));
+        sum += error;
+        radiance += truth[at];
+        const scaled = error / Math.max(truth[at], 1);
+        greatest = Math.max(greatest, scaled);
+        if (scaled > GREATEST) outliers++;
+    });
+    return { mean: sum / radiance, greatest, outliers };
 }
 
-async function compared(name, pixels) {
+const agrees = ({ mean, outliers }) => mean <= LIMITS.mean && outliers <= LIMITS.outliers;
+
+// The same by velour's own measure, which reads what three writes.
+async function compare(name, pixels) {
     const texture = new DataTexture(pixels, WIDTH, HEIGHT, undefined, FloatType);
     writeFileSync(`${OUT}${name}.exr`, await new EXRExporter().parse(texture, { type: FloatType }));
     return JSON.parse(velour('compare', `${OUT}${name}.exr`, `${OUT}velour.exr`, '--json'));
 }
 
-const isWithin = ({ mean, outliers }) => mean <= MEAN && outliers <= OUTLIERS;
-
 for (const [flavour, extension] of [['webgpu', 'wgsl'], ['webgl', 'glsl']]) {
-    test(`${flavour} draws what velour renders`, async () => {
+    test(`${flavour} draws what velour renders`, async (context) => {
         const { pixels, messages } = await drawn(flavour);
-        const measured = difference(pixels);
-        const { relative_mean_absolute_error: relative, flip } = await compared(flavour, pixels);
-        console.log(flavour, { ...measured, relative, flip });
         assert.deepEqual(messages, []);
-        assert.ok(isWithin(measured), JSON.stringify(measured));
+        const measured = difference(pixels);
+        const { relative_mean_absolute_error: relative } = await compare(flavour, pixels);
+        context.diagnostic(JSON.stringify(measured));
+        assert.ok(agrees(measured), JSON.stringify(measured));
+        assert.ok(Math.abs(relative - measured.mean) < 1e-3 * measured.mean, `velour compare says ${relative}`);
     });
 
-    test(`${flavour}: a sign that is wrong is found out`, async () => {
+    test(`${flavour}: a wrong sign in the sheen is found out`, async (context) => {
         const { pixels, messages } = await drawn(flavour, { mistakes: [[`sheen.${extension}`, 'abr.y', '-abr.y']] });
         assert.deepEqual(messages, []);
-        assert.ok(!isWithin(difference(pixels)), JSON.stringify(difference(pixels)));
+        const measured = difference(pixels);
+        context.diagnostic(JSON.stringify(measured));
+        assert.ok(!agrees(measured) && measured.outliers > 1000, JSON.stringify(measured));
     });
 
-    test(`${flavour}: three's own area lights are not ours`, async () => {
-        const { pixels } = await drawn(flavour, { isOurs: false });
+    test(`${flavour}: three's own area lights are another picture`, async (context) => {
+        const { pixels, messages } = await drawn(flavour, { isOurs: false });
+        assert.deepEqual(messages, []);
         const measured = difference(pixels);
-        console.log(`${flavour}, three's own`, measured);
-        assert.ok(!isWithin(measured), JSON.stringify(measured));
+        context.diagnostic(JSON.stringify(measured));
+        assert.ok(!agrees(measured) && measured.outliers > 1000, JSON.stringify(measured));
     });
 }
