@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // For WebGPURenderer: mesh.material = areaSheen(mesh.material) lights it by RectAreaLights with sheen, GGX and diffuse in closed form.
 
+import { InterpolationSamplingMode, InterpolationSamplingType } from 'three';
 import { MeshPhysicalNodeMaterial, PhysicalLightingModel, RectAreaLightNode } from 'three/webgpu';
 import {
     diffuseContribution, float, materialRoughness, normalView, positionView, positionViewDirection, sheen, sheenRoughness,
@@ -98,6 +99,15 @@ class AreaLightingModel extends PhysicalLightingModel {
             dielectric_f0: specularColor, f0: specularColorBlended, f90: specularF90,
         }).toVar();
         super.start(builder);
+    }
+
+    // At a multisampled edge the middle of the pixel may lie off the triangle, where normals and positions could be anything.
+    finish(builder) {
+        super.finish(builder);
+        for (const varying of builder.varyings.filter(({ name }) => /^v_(normal|position)View/.test(name))) {
+            varying.interpolationType = InterpolationSamplingType.PERSPECTIVE;
+            varying.interpolationSampling = InterpolationSamplingMode.CENTROID;
+        }
     }
 
     directRectArea(light, builder) {

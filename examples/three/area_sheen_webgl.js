@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // For WebGLRenderer: mesh.material = areaSheen(mesh.material) lights it by RectAreaLights with sheen, GGX and diffuse in closed form.
 
+import { ShaderChunk } from 'three';
 import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUniformsLib.js';
 import { table, text } from './tables.js';
 
@@ -100,13 +101,21 @@ const PARS = '#include <lights_physical_pars_fragment>';
 const LIGHTS = '#include <lights_fragment_begin>';
 const BEGIN = 'area_begin(normal, isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(vViewPosition), material, roughnessFactor);';
 
+// At a multisampled edge the middle of the pixel may lie off the triangle, where normals and positions could be anything.
+function withCentroids(source) {
+    return source
+        .replace(/#include <(normal_pars_(vertex|fragment))>/, (_, chunk) => ShaderChunk[chunk])
+        .replace(/varying vec3 (vNormal|vViewPosition);/g, 'centroid varying vec3 $1;');
+}
+
 // A material like this MeshStandard- or MeshPhysicalMaterial.
 export function areaSheen(material) {
     const area = material.clone();
     area.onBeforeCompile = (shader, renderer) => {
         material.onBeforeCompile(shader, renderer);
         Object.assign(shader.uniforms, tables);
-        shader.fragmentShader = shader.fragmentShader
+        shader.vertexShader = withCentroids(shader.vertexShader);
+        shader.fragmentShader = withCentroids(shader.fragmentShader)
             .replace(PARS, [PARS, ltc, sheenLobe, ggxLobe, AREA].join('\n'))
             .replace(LIGHTS, `${BEGIN}\n${LIGHTS}`);
     };
