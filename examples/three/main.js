@@ -10,6 +10,7 @@ import { GUI } from 'three/addons/libs/lil-gui.module.min.js';
 import { lightsOfGlowing } from './glowing.js';
 
 const query = new URLSearchParams(location.search);
+const SCENE = query.get('scene') === 'dust' ? 'dust' : 'drape';
 const isWebGPU = !query.has('webgl') && Boolean(await navigator.gpu?.requestAdapter());
 const { areaSheen } = await import(isWebGPU ? './area_sheen.js' : './area_sheen_webgl.js');
 const renderer = isWebGPU ? new WebGPURenderer({ antialias: true }) : new WebGLRenderer({ antialias: true });
@@ -20,7 +21,6 @@ renderer.toneMapping = NeutralToneMapping;
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 document.body.prepend(renderer.domElement);
 
-const SCENE = query.get('scene') === 'dust' ? 'dust' : 'drape';
 const gltf = await new GLTFLoader().loadAsync(new URL(`../../assets/${SCENE}.glb`, import.meta.url).href);
 const [scene, camera] = [gltf.scene, gltf.cameras[0]];
 const lights = lightsOfGlowing(scene);
@@ -36,7 +36,6 @@ camera.removeFromParent();
 const target = camera.getWorldDirection(new Vector3()).multiplyScalar(camera.position.length()).add(camera.position);
 const controls = new OrbitControls(camera, renderer.domElement);
 controls.target.copy(target);
-controls.enableDamping = true;
 controls.minDistance = 1;
 controls.maxDistance = 8;
 controls.maxPolarAngle = 0.55 * Math.PI;
@@ -66,21 +65,33 @@ gui.add(settings, 'alpha', 0.02, 1).name('alpha: fuzz to dust');
 gui.addColor(settings, 'sheen').name('colour of the fibres');
 gui.addColor(settings, 'base').name('colour of the base');
 gui.add(settings, 'light', 0, 2).name('strength of the lights');
-gui.onChange(update);
-update();
 
-const note = document.getElementById('note');
-const other = isWebGPU ? '<a href="?webgl">WebGL 2</a>' : '<a href="?">WebGPU</a>';
-note.innerHTML = `${isWebGPU ? 'WebGPU' : 'WebGL 2'} · try ${other} · drag to turn, scroll to come near`;
+const links = [['WebGPU', 'WebGL 2'], ['drape', 'dust']].map((names, at) => names.map((name, i) => {
+    const isHere = at === 0 ? isWebGPU === (i === 0) : name === SCENE;
+    const [gl, scene] = at === 0 ? [i === 1, SCENE] : [!isWebGPU, name];
+    return isHere ? name : `<a href="?scene=${scene}${gl ? '&webgl' : ''}">${name}</a>`;
+}).join(' | '));
+document.getElementById('note').innerHTML = `${links.join(' &nbsp; ')} &nbsp; drag to turn, scroll to come near`;
+
+// Where nothing moves nothing is drawn.
+function draw() {
+    renderer.render(scene, camera);
+    document.body.dataset.drawn = 'yes';
+}
 
 function resize() {
     camera.aspect = innerWidth / innerHeight;
     camera.updateProjectionMatrix();
     renderer.setSize(innerWidth, innerHeight);
+    draw();
 }
-addEventListener('resize', resize);
-resize();
-renderer.setAnimationLoop(() => {
-    controls.update();
-    renderer.render(scene, camera);
+
+controls.addEventListener('change', draw);
+gui.onChange(() => {
+    update();
+    draw();
 });
+addEventListener('resize', resize);
+update();
+controls.update();
+resize();

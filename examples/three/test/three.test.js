@@ -57,12 +57,18 @@ after(async () => {
     server?.close();
 });
 
-// The picture of a flavour; `mistakes` are [file, from, to] that are made in what the page is served.
-async function drawn(flavour, { isOurs = true, mistakes = [] } = {}) {
+// A page, and the errors and warnings that it has so far.
+async function opened() {
     const page = await browser.newPage();
     const messages = [];
     page.on('console', (message) => ['error', 'warning'].includes(message.type()) && messages.push(message.text()));
     page.on('pageerror', (error) => messages.push(String(error)));
+    return { page, messages };
+}
+
+// The picture of a flavour; `mistakes` are [file, from, to] that are made in what the page is served.
+async function drawn(flavour, { gltf = scene, isOurs = true, mistakes = [] } = {}) {
+    const { page, messages } = await opened();
     for (const [file, from, to] of mistakes) {
         await page.route(`**/${file}`, async (route) => {
             const body = await (await route.fetch()).text();
@@ -72,7 +78,7 @@ async function drawn(flavour, { isOurs = true, mistakes = [] } = {}) {
     }
     await page.goto(`${url}test/page.html?${flavour}`);
     await page.waitForFunction(() => window.picture, null, { timeout: 60_000 }).catch(() => {});
-    const pixels = await page.evaluate((args) => window.picture(...args), [scene, WIDTH, HEIGHT, isOurs]).catch((error) => {
+    const pixels = await page.evaluate((args) => window.picture(...args), [gltf, WIDTH, HEIGHT, isOurs]).catch((error) => {
         throw new Error([error.message, ...messages].join('\n'));
     });
     await page.close();
@@ -130,5 +136,32 @@ for (const [flavour, extension] of [['webgpu', 'wgsl'], ['webgl', 'glsl']]) {
         const measured = difference(pixels);
         context.diagnostic(JSON.stringify(measured));
         assert.ok(!agrees(measured) && measured.outliers > 1000, JSON.stringify(measured));
+    });
+
+    test(`${flavour}: three's clear coat lies on top`, async () => {
+        const coated = JSON.parse(scene);
+        coated.extensionsUsed.push('KHR_materials_clearcoat');
+        for (const material of coated.materials.slice(0, 3)) {
+            material.extensions = { ...material.extensions, KHR_materials_clearcoat: { clearcoatFactor: 1, clearcoatRoughnessFactor: 0.3 } };
+        }
+        const { pixels, messages } = await drawn(flavour, { gltf: JSON.stringify(coated) });
+        assert.deepEqual(messages, []);
+        const { greatest, mean } = difference(pixels);
+        assert.ok(greatest > 0.1 && mean < 1, JSON.stringify({ greatest, mean }));
+    });
+
+    test(`${flavour}: the page draws, whoever lights it`, async () => {
+        const { page, messages } = await opened();
+        await page.setViewportSize({ width: 640, height: 360 });
+        await page.goto(`${url}?scene=dust${flavour === 'webgl' ? '&webgl' : ''}`);
+        await page.waitForSelector('[data-drawn]', { timeout: 60_000 });
+        const ours = await page.screenshot({ path: `${OUT}page_${flavour}.png` });
+        await page.selectOption('select', { index: 1 });
+        await page.waitForTimeout(2000);
+        const own = await page.screenshot();
+        await page.close();
+        assert.deepEqual(messages, []);
+        // A canvas that stayed empty takes a tenth of that.
+        assert.ok(ours.length > 50_000 && own.length > 50_000 && !ours.equals(own));
     });
 }
