@@ -14,4 +14,5 @@ mod sampler_points;
 mod sampling;
 mod sheen;
 mod sweeps;
+mod translated;
 mod vector;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
+// SPDX-FileCopyrightText: 2026 The Velour authors
+// The multiple-scattering sheen of Zeltner, Burley and Chiang 2022: its table gives the matrix of a transformed cosine and its albedo.
+// Copy with it: ltc.glsl, which integrates the matrix over lights, and tables/sheen_ltc.dds (x = alpha, y = mu; texels a, b, r, 1).
+// Frame: z = normal, x = view projected on the surface, as ltc_frame makes it; mu = dot(normal, view).
+// Example: SheenLobe lobe = sheen_lobe(table, alpha, mu); vec3 radiance = light * sheen_color * lobe.albedo * form_factor;
+// Ranges: alpha, mu and sheen_color in [0,1], alpha and mu clamped; a >= 0, where a = 0 the matrix is singular and lights nothing.
+// Greatest error: 3e-6 for 32 x 32 nodes, against f64, where neighbours differ by 2; a sampler's 8-bit weights err by 1e-3 of it.
+// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.
+
+struct SheenLobe {
+    mat3 m_inv;    // rows (a,0,b), (0,a,0), (0,0,1)
+    float albedo;  // r: the share of the light from the view's direction that the fibres send back up
+};
+
+// The lobe for a roughness alpha and the view's cosine mu, from a table of any size whose node k of n sits at k/(n-1).
+SheenLobe sheen_lobe(sampler2D table, float alpha, float mu) {
+    uvec2 last = uvec2(textureSize(table, 0)) - 1u;
+    vec2 at = clamp(vec2(alpha, mu), vec2(0.0), vec2(1.0)) * vec2(last);
+    uvec2 low = min(uvec2(at), last);
+    uvec2 high = min(low + 1u, last);
+    vec2 weight = at - vec2(low);
+    vec4 grazing = mix(texelFetch(table, ivec2(low), 0), texelFetch(table, ivec2(high.x, low.y), 0), weight.x);
+    vec4 upright = mix(texelFetch(table, ivec2(low.x, high.y), 0), texelFetch(table, ivec2(high), 0), weight.x);
+    vec4 abr = mix(grazing, upright, weight.y);
+    return SheenLobe(mat3(abr.x, 0.0, 0.0, 0.0, abr.x, 0.0, abr.y, 0.0, 1.0), abr.z);
+}
+
+// How much of the layers below the sheen is left: what its strongest channel sends back no longer reaches them.
+float sheen_base_weight(vec3 sheen_color, float albedo) {
+    return 1.0 - max(sheen_color.r, max(sheen_color.g, sheen_color.b)) * albedo;
+}
+
+// The same by OpenPBR's rule, which does not look at the colour: weight is how much of the surface the layer covers.
+float sheen_base_weight_openpbr(float weight, float albedo) {
+    return 1.0 - weight * albedo;
+}

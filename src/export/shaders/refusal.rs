@@ -1,0 +1,20 @@
+//! What the translator does not take.
+
+/// Why a file is not translated: it is no mistake of the WGSL, but outside of what is translated faithfully.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "line {line}: {problem}; what is translated is const, struct, fn, let, var, if, for and return, with numbers of \
+     one type on both sides of an operator"
+)]
+pub struct Refusal {
+    /// Counted from 1.
+    pub line: usize,
+    /// What stands there.
+    pub problem: String,
+}
+
+impl Refusal {
+    pub(super) fn new(line: usize, problem: impl Into<String>) -> Self {
+        Self { line, problem: problem.into() }
+    }
+}
