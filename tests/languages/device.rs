@@ -1,4 +1,4 @@
-//! Runs compute shaders in SPIR-V and WGSL on the device, as they are.
+//! Runs compute shaders in SPIR-V on the device, handed to the driver as they are.
 
 use std::borrow::Cow;
 
@@ -7,32 +7,19 @@ use wgpu::{BindingType, BufferBindingType, BufferUsages, Features, PollType, Sha
 
 use super::golden::Rows;
 
-/// A shader as the device takes it.
-pub enum Shader<'a> {
-    /// Handed to the driver without a look at it.
-    Spirv(&'a [u32]),
-    Wgsl(&'a str),
-}
-
 /// The outputs of all rows, one after the other.
-pub fn run(shader: &Shader<'_>, rows: &Rows) -> Vec<f32> {
+pub fn run(spirv: &[u32], rows: &Rows) -> Vec<f32> {
     let (device, queue) = pollster::block_on(open());
-    let module = match shader {
-        Shader::Wgsl(source) => device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: None,
-            source: wgpu::ShaderSource::Wgsl(Cow::Borrowed(source)),
-        }),
-        // SAFETY: the compiler's validator has passed it, and it reads and writes where the rows say.
-        Shader::Spirv(words) => unsafe {
-            device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
-                entry_points: Cow::Owned(vec![wgpu::PassthroughShaderEntryPoint {
-                    name: Cow::Borrowed("main"),
-                    workgroup_size: (64, 1, 1),
-                }]),
-                spirv: Some(Cow::Borrowed(words)),
-                ..Default::default()
-            })
-        },
+    // SAFETY: the compiler's validator has passed it, and it reads and writes where the rows say.
+    let module = unsafe {
+        device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
+            entry_points: Cow::Owned(vec![wgpu::PassthroughShaderEntryPoint {
+                name: Cow::Borrowed("main"),
+                workgroup_size: (64, 1, 1),
+            }]),
+            spirv: Some(Cow::Borrowed(spirv)),
+            ..Default::default()
+        })
     };
     let layout = layout(&device);
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

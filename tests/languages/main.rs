@@ -7,4 +7,5 @@ mod device;
 mod golden;
 mod metal;
 mod shells;
+mod theirs;
 mod vulkan;

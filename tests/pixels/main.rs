@@ -18,6 +18,7 @@ mod exposures;
 mod extremes;
 mod far;
 mod golden;
+mod golden_numbers;
 mod layers;
 mod lights;
 mod modelling;

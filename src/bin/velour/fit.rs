@@ -32,7 +32,7 @@ pub struct Fit {
 }
 
 /// Of the sheen's table.
-fn resolutions() -> RangeInclusive<i64> {
+pub fn resolutions() -> RangeInclusive<i64> {
     let side = |side: &usize| *side as i64;
     side(fit::RESOLUTIONS.start())..=side(fit::RESOLUTIONS.end())
 }

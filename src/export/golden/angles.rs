@@ -86,7 +86,7 @@ pub(super) fn form_factors(index: usize) -> (Function, Vec<Row>) {
         [
             ("above the horizon", closed(1.75, [1.0, 0.0], diffuse, 1.0)),
             ("across the horizon", closed(-0.5, [0.375, 0.625], sheen, 1.0)),
-            ("across the horizon, turned the other way", closed(-0.5, [0.375, -0.625], sheen, 1.0)),
+            ("across the horizon and turned the other way", closed(-0.5, [0.375, -0.625], sheen, 1.0)),
             ("turned by more than a right angle", closed(-1.5, [-0.75, 0.25], sheen, 1.0)),
             ("turned by nearly pi", closed(0.0, [-1.0, 1e-4], diffuse, 1.0)),
             ("two-sided from behind", closed(-1.75, [1.0, 0.0], diffuse, -1.0)),

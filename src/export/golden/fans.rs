@@ -8,8 +8,11 @@ use super::walks::lobe;
 use glam::DMat3;
 use std::f64::consts::TAU;
 
-/// Convex lights in the shading frame.
-const LIGHTS: [(&str, &[[f64; 3]], [f64; 3]); 6] = [
+/// What is special about it, its corners in the shading frame, and a lobe's a, b and c.
+type Light = (&'static str, &'static [[f64; 3]], [f64; 3]);
+
+/// Convex ones.
+const LIGHTS: [Light; 6] = [
     ("triangle beside the zenith; diffuse", &[[0.2, 0.1, 1.0], [1.0, 0.3, 0.7], [0.5, 1.0, 0.4]], [1.0, 0.0, 1.0]),
     (
         "quadrilateral around the zenith; dust",

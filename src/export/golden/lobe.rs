@@ -95,7 +95,7 @@ pub(super) fn samples(index: usize) -> (Function, Vec<Row>) {
             ("diffuse", drawing(lobe(1.0, 0.0, 1.0), [0.15, 0.4])),
             ("diffuse along the normal", drawing(lobe(1.0, 0.0, 1.0), [0.7, 0.0])),
             ("dust", drawing(dust, [0.3, 0.6])),
-            ("dust, nearly a whole turn", drawing(dust, [0.95, 0.8])),
+            ("dust after nearly a whole turn", drawing(dust, [0.95, 0.8])),
             ("fuzz", drawing(fuzz, [0.55, 0.3])),
             ("fuzz at grazing angles", drawing(fuzz, [0.8, 0.95])),
             ("broad mirror", drawing(lobe(1.25, 0.9, 1.75), [0.4, 0.5])),

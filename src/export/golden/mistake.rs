@@ -61,10 +61,11 @@ impl Mistake {
             }
             Self::MInvTransposed => {
                 "m_inv has rows where columns belong: WGSL's m[2].x is the third column's first number, so an HLSL matrix, \
-                 whose m[2] is a row, holds b at m[0].z"
+                 whose m[2] is a row, holds b at m[0].z; where lights_factors is right, only the matrix was printed row by row"
             }
             Self::FrameTransposed => {
-                "the frame is transposed: its rows are x, y and the normal, so that frame * v takes v from the world into it"
+                "the frame is transposed: its rows are x, y and the normal, so that frame * v takes v from the world into it; where \
+                 lights_factors is right, only the matrix was printed row by row"
             }
             Self::FrameAboutLight => {
                 "the frame's x axis points to the light: it is the view projected on the surface, for every light the same"

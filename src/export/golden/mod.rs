@@ -8,78 +8,26 @@
 //! left out, for they are the shipped tables.
 
 mod angles;
+mod answers;
 mod fan;
 mod fans;
 mod flat;
 mod frame;
 mod function;
+mod judge;
 mod lobe;
 mod lobes;
 mod lookup;
 mod mistake;
+mod numbers;
 mod outline;
 mod scenes;
 mod text;
 mod walks;
 mod whole;
 
+pub use answers::{Answers, AnswersError};
 pub use function::{Function, Row};
+pub use judge::{Cause, Judgement, Off};
 pub use mistake::Mistake;
-
-/// All functions with their rows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Golden {
-    /// In the order in which rows and harnesses number them.
-    pub functions: Vec<Function>,
-    /// In order of the functions.
-    pub rows: Vec<Row>,
-}
-
-/// A function and its rows, given its index.
-type Make = fn(usize) -> (Function, Vec<Row>);
-
-const MAKES: [Make; 24] = [
-    frame::frames,
-    frame::sides,
-    walks::begins,
-    walks::nexts,
-    walks::edge_sums,
-    walks::edge_vectors,
-    walks::turns,
-    angles::form_factors,
-    angles::vectors,
-    angles::arcs,
-    angles::angles,
-    angles::crosses,
-    lobe::densities,
-    lobe::samples,
-    fans::begins,
-    fans::edges,
-    fans::points,
-    lobes::sheens,
-    lobes::sheen_bases,
-    lobes::sheen_bases_openpbr,
-    lobes::ggxs,
-    lobes::ggx_albedos,
-    lobes::ggx_bases,
-    scenes::lights_factors,
-];
-
-impl Golden {
-    /// Computes them all.
-    pub fn new() -> Self {
-        let (mut functions, mut rows) = (Vec::new(), Vec::new());
-        for (index, make) in MAKES.into_iter().enumerate() {
-            let (function, made) = make(index);
-            functions.push(function);
-            rows.extend(made);
-        }
-        Self { functions, rows }
-    }
-}
-
-impl Default for Golden {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+pub use numbers::Golden;

@@ -131,6 +131,13 @@ fn shapes() -> Vec<(String, Scene)> {
         along: [1.0, 0.3, 0.0],
         outline,
     };
+    // From far above to below the floor, before the point.
+    let slanting = |normal: [f64; 3]| Light {
+        middle: (DVec3::from(FLOOR.position) - 1.2 * DVec3::from(normal)).to_array(),
+        normal,
+        along: [normal[1], -normal[0], 0.0],
+        outline: rectangle(3.0, 4.5),
+    };
     let arrow = vec![[-0.9, -0.6], [1.0, 0.0], [-0.9, 0.7], [-0.4, 0.05]];
     let star: Vec<[f64; 2]> = (0..8)
         .map(|k| ((if k % 2 == 0 { 1.3 } else { 0.45 }) * DVec2::from_angle(0.2 + TAU * f64::from(k) / 8.0)).to_array())
@@ -196,12 +203,20 @@ fn shapes() -> Vec<(String, Scene)> {
         ),
         of("two-sided from the front", SLOPE, true, &panel(5)),
         of(
-            "wholly below the horizon, facing up",
+            "slanting from overhead to below the horizon",
+            Surface { alpha: 0.5, ..FLOOR },
+            false,
+            &slanting([-0.7, -0.2, -0.6]),
+        ),
+        of("slanting the other way", Surface { view: [0.2, 0.8, 0.4], ..FLOOR }, false, &slanting([0.5, -0.4, -0.6])),
+        of("slanting along y", Surface { alpha: 0.7, ..FLOOR }, true, &slanting([0.1, 0.8, -0.5])),
+        of(
+            "wholly below the horizon and facing up",
             FLOOR,
             false,
             &Light { normal: [0.0, 0.0, 1.0], ..overhead(-1.0, rectangle(1.0, 2.0)) },
         ),
-        of("wholly below the horizon, two-sided", FLOOR, true, &overhead(-1.0, rectangle(1.0, 2.0))),
+        of("wholly below the horizon and two-sided", FLOOR, true, &overhead(-1.0, rectangle(1.0, 2.0))),
     ]
 }
 
@@ -209,7 +224,7 @@ fn materials() -> Vec<(String, Scene)> {
     let corners = panel(4).corners();
     let low = wall(rectangle(1.8, 1.2)).corners();
     let of = |name: &str, surface: Surface| (name.to_owned(), scene(surface, false, &corners));
-    let on = |name: &str, surface: Surface| (name.to_owned(), scene(surface, false, &low));
+    let on = |name: &str, surface: Surface| (name.to_owned(), scene(surface, true, &low));
     let up = Light { normal: [0.2, -0.1, 0.9], ..panel(4) }.corners();
     let facing_up = |name: &str, surface: Surface| (name.to_owned(), scene(surface, false, &up));
     let leaning = |mu: f64| [f64::sqrt(1.0 - mu * mu), 0.0, mu];
@@ -244,10 +259,10 @@ fn dark() -> Vec<(String, Scene)> {
     let flat = [[-1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]];
     let raised = [[1.0, -1.0, 0.0], [1.0, -1.0, 2.0], [1.0, 1.0, 2.0], [1.0, 1.0, 0.0]];
     [
-        ("inside the light, in its plane", point([1.0, 0.5, 0.25], &upright)),
-        ("in the light's plane beside it", point([1.0, 3.0, 0.0], &upright)),
+        ("in the light's plane and within it", point([1.0, 0.5, 0.25], &upright)),
+        ("in the light's plane and beside it", point([1.0, 3.0, 0.0], &upright)),
         ("on the light's edge", point([1.0, 1.0, 0.25], &upright)),
-        ("on the light's lower edge, which lies on the surface", point([1.0, 0.25, 0.0], &raised)),
+        ("on the light's lower edge where it lies on the surface", point([1.0, 0.25, 0.0], &raised)),
         ("at the light's vertex", point([1.0, 1.0, 1.0], &upright)),
         ("at the light's lower vertex", point([1.0, 1.0, 0.0], &raised)),
         ("in the plane of a flat light", point([0.25, -0.5, 0.0], &flat)),

@@ -1,8 +1,8 @@
 //! Golden numbers as files: .csv and .json, with the same numbers.
 
-use super::Golden;
 use super::function::{Function, Row};
 use super::mistake::Mistake;
+use super::numbers::Golden;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -133,4 +133,106 @@ fn figure(number: f64) -> String {
 
 fn cell(words: impl Iterator<Item = String>) -> String {
     words.collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+
+    const CSV: &str = include_str!("../../../tables/golden.csv");
+    const JSON: &str = include_str!("../../../tables/golden.json");
+
+    /// Whether two texts are the same but for numbers, which may differ by 1e-9 of them. (Mathematical libraries differ.)
+    fn same_text(one: &str, other: &str) -> bool {
+        let words = |text: &str| -> Vec<String> {
+            let ends = |letter: char| letter.is_whitespace() || ",:[]{}".contains(letter);
+            text.split_inclusive(ends).map(str::to_owned).collect()
+        };
+        let (one, other) = (words(one), words(other));
+        one.len() == other.len() && one.iter().zip(&other).all(|(one, other)| one == other || same_word(one, other))
+    }
+
+    fn same_word(one: &str, other: &str) -> bool {
+        let number = |word: &str| {
+            let at = word.trim_end_matches(|letter: char| !letter.is_ascii_digit()).len();
+            (word[..at].parse::<f64>().ok(), word[at..].to_owned())
+        };
+        let ((one, one_end), (other, other_end)) = (number(one), number(other));
+        // Tolerances have two digits, the last of which may be rounded either way.
+        let near =
+            |one: f64, other: f64| (one - other).abs() <= 1e-9 * one.abs().max(1e-3) || is_last_digit(one, other);
+        one_end == other_end && one.zip(other).is_some_and(|(one, other)| near(one, other))
+    }
+
+    fn is_last_digit(one: f64, other: f64) -> bool {
+        [one, other].iter().all(|number| to_digits(*number, 2) == *number) && (one - other).abs() < 0.11 * one.abs()
+    }
+
+    #[test]
+    fn the_files_are_what_export_makes() {
+        let golden = Golden::new();
+        for (name, file, made) in [("csv", CSV, golden.to_csv()), ("json", JSON, golden.to_json())] {
+            let first = file.lines().zip(made.lines()).position(|(file, made)| !same_text(file, made));
+            assert_eq!(first, None, "a line of tables/golden.{name} is old: velour export golden -o tables");
+            assert_eq!(file.lines().count(), made.lines().count(), "golden.{name}");
+        }
+        assert!(same_text("1,0.5 2.25,x", "1,0.5000000001 2.25,x"));
+        for other in ["1,0.50000001 2.25,x", "1,0.5 2.25,y", "1,0.5 2.25", "1,-0.5 2.25,x", "1,0.5 2.25 3,x"] {
+            assert!(!same_text("1,0.5 2.25,x", other), "{other}");
+        }
+    }
+
+    #[test]
+    fn both_files_hold_the_same_rows_and_read_back_exactly() {
+        let golden = Golden::new();
+        let json: Value = serde_json::from_str(JSON).unwrap();
+        let mut lines =
+            CSV.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect::<Vec<_>>());
+        assert_eq!(lines.next().unwrap().join(","), "id,function,case,mistake,inputs,outputs,tolerances");
+        let rows = json["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), golden.rows.len());
+        for (row, text) in golden.rows.iter().zip(rows) {
+            let cells = lines.next().unwrap();
+            let numbers = |cell: &str| -> Vec<Option<f64>> { cell.split(' ').map(|word| word.parse().ok()).collect() };
+            let listed =
+                |value: &Value| -> Vec<Option<f64>> { value.as_array().unwrap().iter().map(Value::as_f64).collect() };
+            assert_eq!(
+                [cells[0], cells[1], cells[2], cells[3]],
+                [&*text["id"].to_string(), text["function"].as_str().unwrap(), text["case"].as_str().unwrap(), ""]
+            );
+            for (column, name) in [(4, "inputs"), (5, "outputs"), (6, "tolerances")] {
+                assert_eq!(numbers(cells[column]), listed(&text[name]), "{} of {}", name, cells[0]);
+            }
+            // As f32 straight from the text, and by way of f64.
+            let straight: Vec<f32> = cells[4].split(' ').map(|word| word.parse().unwrap()).collect();
+            let inputs: Vec<f32> = listed(&text["inputs"]).into_iter().map(|input| input.unwrap() as f32).collect();
+            assert_eq!(straight, inputs);
+            assert_eq!(inputs.iter().map(|input| f64::from(*input)).collect::<Vec<_>>(), row.inputs, "{}", row.id);
+            for (mistake, _) in &row.mistakes {
+                let wrong = lines.next().unwrap();
+                assert_eq!((wrong[0], wrong[3], wrong[4]), (cells[0], mistake.name(), ""));
+                assert_eq!(numbers(wrong[5]), listed(&text["mistakes"][mistake.name()]));
+            }
+            assert_eq!(text["mistakes"].as_object().unwrap().len(), row.mistakes.len());
+        }
+        assert_eq!(lines.next(), None);
+    }
+
+    #[test]
+    fn cases_have_no_character_that_a_csv_would_have_to_quote() {
+        let golden = Golden::new();
+        assert!(golden.rows.iter().all(|row| !row.case.contains([',', '"', '\n', '#']) && !row.case.is_empty()));
+        let mut ids: Vec<u32> = golden.rows.iter().map(|row| row.id).collect();
+        assert!(ids.is_sorted());
+        ids.dedup();
+        assert_eq!(ids.len(), golden.rows.len());
+        for row in &golden.rows {
+            let function = &golden.functions[row.function];
+            assert_eq!((row.inputs.len(), row.outputs.len()), (function.inputs.len(), function.outputs.len()));
+        }
+        // Open by definition is rare.
+        let open = golden.rows.iter().flat_map(|row| &row.tolerances).filter(|tolerance| tolerance.is_none()).count();
+        assert!(open <= 40, "{open} numbers are not compared");
+    }
 }
