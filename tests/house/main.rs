@@ -20,11 +20,14 @@ pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The files under a folder whose names end so, in order.
+/// The files under a folder whose names end so, in order, without those that npm has installed below an example.
 pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
     for path in entries.map(|entry| entry.unwrap().path()) {
+        if path.ends_with("node_modules") {
+            continue;
+        }
         if path.is_dir() {
             // What npm installs is no part of the project.
             if path.file_name().is_none_or(|name| name != "node_modules") {
