@@ -20,12 +20,12 @@ pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The files under a folder whose names end so, in order, without those that npm has installed below an example.
+/// The files under a folder whose names end so, in order; but for those that an example's own build has put there.
 pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
     for path in entries.map(|entry| entry.unwrap().path()) {
-        if path.ends_with("node_modules") {
+        if ["target", "node_modules"].iter().any(|built| path.ends_with(built)) {
             continue;
         }
         if path.is_dir() {
