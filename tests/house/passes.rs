@@ -11,7 +11,7 @@ use super::{files, read, root};
 /// The files of the surfaces' pass, from the ground up. A file names what stands on lower floors, and what is its own.
 pub const FLOORS: [&[&str]; 24] = [
     // What people copy.
-    &["ltc", "ltc_sample", "sheen", "sheen_fit", "ggx"],
+    &["ltc", "ltc_sample", "sheen", "ggx"],
     // What a pipeline is made for.
     &["passes/variant"],
     // What a frame is drawn with.
