@@ -13,6 +13,7 @@
 
 mod difference;
 mod exr;
+mod file;
 mod form;
 mod ktx2;
 mod npy;

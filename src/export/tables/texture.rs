@@ -3,7 +3,6 @@
 use half::f16;
 
 use super::form::Form;
-use super::{exr, ktx2, npy, source};
 use crate::table::{GgxTable, SheenTable};
 
 /// A table as texels.
@@ -17,8 +16,8 @@ pub struct Texture {
     pub texels: Vec<[f64; 4]>,
     /// What it is, and what its axes and channels are: a sentence without its full stop.
     meaning: String,
-    csv: String,
-    dds: Vec<u8>,
+    pub(super) csv: String,
+    pub(super) dds: Vec<u8>,
 }
 
 impl Texture {
@@ -70,22 +69,6 @@ impl Texture {
     /// The file's name.
     pub fn name(&self, form: Form) -> String {
         format!("{}.{}", self.stem, form.extension())
-    }
-
-    /// The file.
-    pub fn file(&self, form: Form) -> Vec<u8> {
-        match form {
-            Form::Dds => self.dds.clone(),
-            Form::Ktx2 => ktx2::write(self),
-            Form::Csv => self.csv.clone().into_bytes(),
-            Form::Npy => npy::write(self),
-            Form::Exr => exr::write(self),
-            Form::Bin => self.half_bytes(),
-            Form::Js => source::js(self).into_bytes(),
-            Form::C => source::c(self).into_bytes(),
-            Form::Rust => source::rust(self).into_bytes(),
-            Form::Glsl => source::glsl(self).into_bytes(),
-        }
     }
 
     /// One sentence that says all about a file: axes, nodes, channels, order of numbers and bytes.
