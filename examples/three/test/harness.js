@@ -22,7 +22,7 @@ const GREATEST = 1e-3;
 // Chromium draws on SwiftShader; where its driver for other programs is found, velour does too. Other drivers rasterise on another grid, which
 // moves silhouettes and what is interpolated by up to 1/16 pixel. The mean difference is over the mean radiance.
 const SWIFTSHADER = ['/usr/lib/chromium', dirname(process.env.CHROMIUM ?? '/')].map((folder) => `${folder}/vk_swiftshader_icd.json`).find(existsSync);
-const LIMITS = SWIFTSHADER ? { outliers: 10, greatest: 0.02, mean: 5e-5 } : { outliers: 2000, greatest: Infinity, mean: 5e-3 };
+const LIMITS = SWIFTSHADER ? { outliers: 10, greatest: 0.02, mean: 5e-5 } : { outliers: 3000, greatest: Infinity, mean: 5e-3 };
 
 export const OUT = fileURLToPath(new URL('out/', import.meta.url));
 const FLAGS = [
