@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Velour authors
 //! Pictures without a window.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use bevy::camera::RenderTarget;
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
@@ -33,10 +35,16 @@ impl Headless {
     pub fn new(size: UVec2, format: TextureFormat) -> Self {
         let windows = WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() };
         let renderer = RenderPlugin { synchronous_pipeline_compilation: true, ..default() };
-        let log = LogPlugin { filter: "warn".into(), ..default() };
+        // A picture that comes back after the one that was taken is not missed.
+        let log = LogPlugin { filter: "warn,bevy_render::gpu_readback=error".into(), ..default() };
         let mut app = App::new();
-        let plugins = DefaultPlugins.build().disable::<WinitPlugin>().disable::<PipelinedRenderingPlugin>();
-        app.add_plugins((plugins.set(windows).set(renderer).set(log), SheenPlugin)).init_resource::<Bytes>();
+        let plugins = DefaultPlugins.set(windows).set(renderer);
+        let plugins = plugins.disable::<WinitPlugin>().disable::<PipelinedRenderingPlugin>();
+        // One log serves all apps of a program.
+        static HAS_LOG: AtomicBool = AtomicBool::new(false);
+        let has_log = HAS_LOG.swap(true, Ordering::Relaxed);
+        let plugins = if has_log { plugins.disable::<LogPlugin>() } else { plugins.set(log) };
+        app.add_plugins((plugins, SheenPlugin)).init_resource::<Bytes>();
         app.finish();
         app.cleanup();
         let mut image = Image::new_target_texture(size.x, size.y, format, None);

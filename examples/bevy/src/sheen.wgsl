@@ -113,7 +113,8 @@ fn fragment(in: VertexOutput, @builtin(front_facing) is_front: bool) -> Fragment
     let lobe = sheen_lobe(surface_sheen_table, surface_sheen.alpha, max(dot(pbr.N, pbr.V), 0.0));
     let below = pbr_functions::apply_pbr_lighting(pbr);
     let weight = sheen_base_weight(surface_sheen.color.rgb, lobe.albedo);
-    let radiance = weight * below.rgb + exposure * surface_radiance(pbr, lobe) + glow;
+    let ambient = surface_sheen.color.rgb * lobe.albedo * view_bindings::lights.ambient_color.rgb;
+    let radiance = weight * below.rgb + exposure * (surface_radiance(pbr, lobe) + ambient) + glow;
     var out: FragmentOutput;
     out.color = pbr_functions::main_pass_post_lighting_processing(pbr, vec4(radiance, below.a));
     return out;

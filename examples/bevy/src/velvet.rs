@@ -102,6 +102,8 @@ pub fn spawn(world: &mut World, target: RenderTarget) {
     let place = orbit.transform();
     world.spawn((Camera3d::default(), target, EXPOSURE_OF_ONE, Tonemapping::AcesFitted, place, orbit));
     world.insert_resource(ClearColor(Color::BLACK));
+    // Bevy's default is a radiance of 80.
+    world.insert_resource(GlobalAmbientLight::NONE);
 }
 
 fn things(world: &mut World) {

@@ -6,7 +6,7 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
-use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use velour_bevy::panel::panel;
@@ -141,8 +141,10 @@ pub fn spawn(world: &mut World, target: RenderTarget, sheen: impl Fn(LinearRgba,
     }
     let lens = PerspectiveProjection { fov: YFOV, near: NEAR, far: FAR, ..default() };
     let lens = Projection::Perspective(lens);
-    world.spawn((Camera3d::default(), target, EXPOSURE_OF_ONE, Tonemapping::None, Msaa::Off, lens, eye()));
+    let plain = (EXPOSURE_OF_ONE, Tonemapping::None, DebandDither::Disabled, Msaa::Off);
+    world.spawn((Camera3d::default(), target, plain, lens, eye()));
     world.insert_resource(ClearColor(Color::NONE));
+    world.insert_resource(GlobalAmbientLight::NONE);
 }
 
 fn linear([red, green, blue]: [f32; 3]) -> LinearRgba {
