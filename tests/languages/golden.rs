@@ -78,18 +78,23 @@ impl Rows {
         off
     }
 
-    /// The greatest of the differences, as shares of the tolerances.
-    pub fn greatest_share(&self, results: &[f32]) -> f64 {
-        let mut greatest: f64 = 0.0;
+    /// Differences as shares of the tolerances, the greatest and the mean; and those of the whole's form factors themselves.
+    fn figures(&self, results: &[f32]) -> [f64; 4] {
+        let (mut shares, mut factors) = (Vec::new(), Vec::new());
         for (row, head) in self.rows.iter().zip(&self.heads) {
             for (index, (expected, tolerance)) in row.expected.iter().zip(&row.tolerances).enumerate() {
-                let found = f64::from(results[head[2] as usize + index]);
-                if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance > 0.0) {
-                    greatest = greatest.max((found - expected).abs() / tolerance);
+                let Some(tolerance) = tolerance.filter(|tolerance| *tolerance > 0.0) else { continue };
+                let apart = (f64::from(results[head[2] as usize + index]) - expected).abs();
+                shares.push(apart / tolerance);
+                // mu, a, b and r come before them.
+                if row.what.contains("lights_factors") && index >= 4 {
+                    factors.push(apart);
                 }
             }
         }
-        greatest
+        let greatest = |numbers: &[f64]| numbers.iter().copied().fold(0.0, f64::max);
+        let mean = |numbers: &[f64]| numbers.iter().sum::<f64>() / numbers.len() as f64;
+        [greatest(&shares), mean(&shares), greatest(&factors), mean(&factors)]
     }
 }
 
@@ -109,5 +114,9 @@ pub fn assert_right(language: &str, rows: &Rows, results: &[f32]) {
     let off = rows.off(results);
     let shown = off.iter().take(20).cloned().collect::<Vec<_>>().join("\n");
     assert!(off.is_empty(), "{language}: {} numbers are off\n{shown}", off.len());
-    println!("{language}: {} numbers, at most {:.2} of a tolerance off", results.len(), rows.greatest_share(results));
+    let [greatest, mean, factor, mean_factor] = rows.figures(results);
+    println!(
+        "{language}: {} numbers, off by {greatest:.2} of a tolerance at most, {mean:.3} on average; form factors by {factor:.1e} and {mean_factor:.1e}",
+        results.len()
+    );
 }
