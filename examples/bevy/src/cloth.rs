@@ -13,9 +13,9 @@ const BALL: f32 = 0.55;
 const LENGTH: f32 = 1.75;
 const FOLDS: f32 = 9.0;
 /// How deep the folds are at the hem.
-const DEPTH: f32 = 0.13;
-/// How much wider the cloth grows over a length that hangs down.
-const FLARE: f32 = 0.18;
+const DEPTH: f32 = 0.16;
+/// How much wider the cloth grows over the square of the length that hangs down.
+const FLARE: f32 = 0.25;
 const COLUMNS: u32 = 360;
 const ROWS: u32 = 120;
 
@@ -46,10 +46,10 @@ fn point(along: f32, around: f32) -> Vec3 {
         let (sine, cosine) = (along / BALL).sin_cos();
         (BALL * sine, BALL * cosine)
     } else {
-        (BALL + FLARE * (along - cap), cap - along)
+        (BALL + FLARE * (along - cap).powi(2), cap - along)
     };
     let hanging = ((along - 0.4 * cap) / (LENGTH - 0.4 * cap)).clamp(0.0, 1.0);
-    let fold = DEPTH * hanging.powf(1.5) * (FOLDS * around + 1.3 * (2.0 * around).sin()).cos();
+    let fold = DEPTH * hanging.powi(2) * (FOLDS * around + 1.3 * (2.0 * around).sin()).cos();
     Vec3::new((radius + fold) * around.cos(), y, (radius + fold) * around.sin())
 }
 

@@ -53,7 +53,7 @@ impl Look {
 
     /// Gives all velvet this look.
     pub fn wear(&self, velvets: &Velvets, tables: &SheenTables, materials: &mut Assets<SheenMaterial>) {
-        for (handle, fixed) in [(&velvets.cloth, None), (&velvets.floor, Some((LinearRgba::gray(0.5), 1.0)))] {
+        for (handle, fixed) in [(&velvets.cloth, None), (&velvets.floor, Some((LinearRgba::gray(0.25), 1.0)))] {
             let Some(mut material) = materials.get_mut(handle) else { continue };
             material.extension = self.sheen(tables);
             match fixed {
@@ -89,7 +89,7 @@ pub struct Orbit {
 impl Orbit {
     pub fn transform(&self) -> Transform {
         let turn = Quat::from_euler(EulerRot::YXZ, self.around, -self.above, 0.0);
-        let centre = Vec3::new(0.0, 0.62, 0.0);
+        let centre = Vec3::new(0.0, 0.68, 0.0);
         Transform::from_translation(centre + turn * (self.away * Vec3::Z)).looking_at(centre, Vec3::Y)
     }
 }
@@ -98,7 +98,7 @@ impl Orbit {
 pub fn spawn(world: &mut World, target: RenderTarget) {
     things(world);
     lights(world);
-    let orbit = Orbit { around: 0.35, above: 0.28, away: 4.6 };
+    let orbit = Orbit { around: 0.35, above: 0.3, away: 3.7 };
     let place = orbit.transform();
     world.spawn((Camera3d::default(), target, EXPOSURE_OF_ONE, Tonemapping::AcesFitted, place, orbit));
     world.insert_resource(ClearColor(Color::BLACK));
@@ -133,9 +133,9 @@ fn things(world: &mut World) {
 
 fn lights(world: &mut World) {
     let panels = [
-        (LinearRgba::rgb(9.0, 7.5, 6.0), Vec2::new(1.0, 1.6), Vec3::new(-2.4, 1.5, 0.9)),
-        (LinearRgba::rgb(3.5, 5.0, 8.0), Vec2::new(0.6, 2.0), Vec3::new(2.3, 1.3, -1.2)),
-        (LinearRgba::rgb(6.0, 5.6, 5.2), Vec2::new(1.6, 0.5), Vec3::new(0.3, 2.6, -1.0)),
+        (LinearRgba::rgb(22.0, 19.0, 16.0), Vec2::new(1.4, 1.4), Vec3::new(-2.2, 2.3, 2.2)),
+        (LinearRgba::rgb(8.0, 12.0, 20.0), Vec2::new(0.8, 2.0), Vec3::new(1.9, 1.4, -1.7)),
+        (LinearRgba::rgb(20.0, 17.0, 14.0), Vec2::new(1.8, 0.6), Vec3::new(-0.9, 2.6, -1.6)),
     ];
     for (radiance, size, place) in panels {
         let target = Vec3::new(0.0, 0.6, 0.0);
