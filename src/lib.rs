@@ -23,7 +23,16 @@
 //! | `export` | the shaders in other languages, golden numbers, the tables in other forms | `cli` |
 //! | `file` | a file appears whole or not at all | `cli` or `window` |
 //!
-//! # Example
+//! # Examples
+//!
+//! | to | look at | with feature |
+//! |---|---|---|
+//! | render a picture without a window | `examples/offscreen.rs`, `renderer::Offscreen` | `gpu` |
+//! | compare pictures in a test | `examples/screenshot_test.rs`, `picture::FlipMap` | `gpu`, `cli` |
+//! | scatter light in a path tracer | `examples/brdf.rs`, [`models`] | |
+//! | the same on a device | `examples/path_tracer` | `gpu`, `cli` |
+//! | light surfaces by polygons in a shader | `examples/lights.wgsl`, `shaders/`, `docs/integration.md` | |
+//! | put the sheen into an engine | `examples/three`, `examples/bevy` | |
 //!
 //! The sheen's numbers at any roughness and view angle, without a graphics device:
 //!

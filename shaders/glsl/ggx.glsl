@@ -6,7 +6,7 @@
 // Example: GgxLobe lobe = ggx_lobe(table, roughness, mu); vec3 radiance = light * ggx_albedo(lobe, f0, f90) * form_factor;
 // Ranges: roughness and mu in [0,1], clamped, alpha = roughness^2 no less than 0.001; f0 and f90 in [0,1], where albedo and base weight stay.
 // Greatest error: 4e-7 of albedo, fresnel, a/c, b/c and 1/sqrt(c) with the shipped table, against f64; halves add 5e-4 of each number.
-// Language: GLSL ES 3.00 and 4.50 alike. ES takes `precision highp float; precision highp int; precision highp sampler2D;` before it.
+// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.
 
 struct GgxLobe {
     mat3 m_inv;     // rows (a,0,b), (0,c,0), (0,0,1)

@@ -6,7 +6,7 @@
 // Example: vec3 radiance = lights_shade(sheen_table, ggx_table, range, surface);
 // Ranges: as of the files before it; lights planar, of 3 corners or more, convex or not; f0 no more than f90 in each channel.
 // Greatest error: 5e-6 of each form factor, which is that of ltc.glsl; 3e-6 of each number that the tables give, on top of it.
-// Language: GLSL ES 3.00 and 4.50 alike. ES takes `precision highp float; precision highp int; precision highp sampler2D;` before it.
+// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.
 
 // What reads your lights is yours, the struct LightsRange and six functions. A range is what tells which lights reach a point: a cluster, a tile,
 // a count; where functions see no buffers but their arguments, it holds these too. A light that shines to one side has radiance power / (pi area).

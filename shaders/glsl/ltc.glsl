@@ -6,7 +6,7 @@
 // Example: outline = ltc_next(outline, frame * (corner - position)); sum += ltc_edge(outline, m_inv); turn = ltc_turn(turn, outline, m_inv);
 // Ranges: coordinates to 1e5, a and c to 1e3; any number of vertices, in contours that do not cross; form factors in [0,1]; never NaN.
 // Greatest error: 5e-7 for vertices exact in the frame, 5e-6 a millionth of its size from an edge, times c/a; taking them there adds 1e-7 size/distance.
-// Language: GLSL ES 3.00 and 4.50 alike. ES takes `precision highp float; precision highp int; precision highp sampler2D;` before it.
+// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.
 
 const float LTC_PI = 3.14159265358979;
 // A point closer to a light's plane than this share of its distance to the light's vertex is in the plane: f32 sees no side.

@@ -6,7 +6,7 @@
 // Example: fan = ltc_sample_edge(fan, outline.p, outline.q, outline.normal, outline.sine, m_inv); vec3 wo = ltc_sample_point(fan, m_inv, number);
 // Ranges: coordinates 1e-8 to 1e5, lobes as of ltc.glsl; parts convex as seen from the point, of any number of vertices; never NaN.
 // Greatest error: areas 3e-7, times c/a; over a form factor, so that is how far points of small and narrow lights are moved within them.
-// Language: GLSL ES 3.00 and 4.50 alike. ES takes `precision highp float; precision highp int; precision highp sampler2D;` before it.
+// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.
 
 const float LTC_SAMPLE_PI = 3.14159265358979;
 const uint LTC_SAMPLE_STEPS = 3u;  // Halley's, towards an azimuth

@@ -149,6 +149,6 @@ fn the_readme_shows_a_test_that_runs() {
     let readme = read(&root().join("README.md"));
     let (_, rest) = readme.split_once("```rust\n").expect("the README shows a test");
     let (shown, _) = rest.split_once("```").expect("the test ends");
-    let run = read(&root().join("tests/pixels/screenshot.rs"));
-    assert!(run.contains(shown), "tests/pixels/screenshot.rs does not hold the README's test:\n{shown}");
+    let run = read(&root().join("examples/screenshot_test.rs"));
+    assert!(run.contains(shown), "examples/screenshot_test.rs does not hold the README's test:\n{shown}");
 }

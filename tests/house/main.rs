@@ -29,7 +29,10 @@ pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
             continue;
         }
         if path.is_dir() {
-            found.extend(files(&path, extension));
+            // What npm installs is no part of the project.
+            if path.file_name().is_none_or(|name| name != "node_modules") {
+                found.extend(files(&path, extension));
+            }
         } else if path.extension().is_some_and(|own| own == extension) {
             found.push(path);
         }

@@ -9,6 +9,8 @@ mod disk_light;
 #[cfg(feature = "cli")]
 mod fibres;
 mod fit;
+#[cfg(feature = "cli")]
+mod forms;
 mod ggx_table;
 mod hostile_table;
 mod lobes;

@@ -143,7 +143,7 @@ fn the_adapter_is_chosen_by_a_part_of_its_name() {
 fn help_and_version_are_given() {
     let bench = Bench::new();
     let help = bench.run("--help").stdout;
-    for word in ["view", "render", "fit", "compare", "figures", "info", "Exit codes"] {
+    for word in ["view", "render", "fit", "compare", "figures", "export", "golden", "info", "Exit codes"] {
         assert!(help.contains(word), "no {word} in {help}");
     }
     assert_eq!(bench.run("--version").stdout, format!("velour {}\n", env!("CARGO_PKG_VERSION")));

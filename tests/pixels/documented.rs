@@ -2,9 +2,12 @@
 
 use super::run::Bench;
 
-const DOCUMENTS: [(&str, &str); 4] = [
+const DOCUMENTS: [(&str, &str); 7] = [
     ("README.md", include_str!("../../README.md")),
     ("CONTRIBUTING.md", include_str!("../../CONTRIBUTING.md")),
+    ("docs/golden.md", include_str!("../../docs/golden.md")),
+    ("docs/integration.md", include_str!("../../docs/integration.md")),
+    ("docs/tables.md", include_str!("../../docs/tables.md")),
     ("docs/scenes.md", include_str!("../../docs/scenes.md")),
     ("docs/accuracy.md", include_str!("../../docs/accuracy.md")),
 ];
@@ -14,6 +17,13 @@ fn commands(text: &str) -> impl Iterator<Item = &str> {
     let lines = text.lines().filter_map(|line| line.strip_prefix("velour "));
     let spans = text.split('`').skip(1).step_by(2).filter_map(|span| span.strip_prefix("velour "));
     lines.map(|line| line.split(" #").next().unwrap_or(line)).chain(spans)
+}
+
+/// The words that name a command: the first, and for `export` what is exported.
+fn named(command: &str) -> String {
+    let count = if command.starts_with("export ") { 2 } else { 1 };
+    let words = command.split_whitespace().take(count).take_while(|word| !word.starts_with('-'));
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// The flags of a command that its help does not know.
@@ -29,8 +39,7 @@ fn commands_in_documents_have_the_flags_that_they_show() {
     let mut count = 0;
     for (name, text) in DOCUMENTS {
         for command in commands(text) {
-            let words = command.split_whitespace().next().unwrap_or_default();
-            let help = bench.run(&format!("{} --help", if words.starts_with('-') { "" } else { words })).stdout;
+            let help = bench.run(&format!("{} --help", named(command))).stdout;
             assert_eq!(unknown(command, &help), [""; 0], "{name}: velour {command}");
             count += 1;
         }

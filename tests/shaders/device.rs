@@ -36,6 +36,11 @@ pub fn texture(width: u32, texels: &[[f32; 4]]) -> TextureView {
 /// Runs `entry` of the WGSL `source` once for each of `count` results. Its group 0 holds the results at binding 0, the
 /// `inputs` as read-only storage from binding 1, and the texture, if any, after them.
 pub fn run<T: bytemuck::Pod>(source: &str, inputs: &[&[u8]], table: Option<&TextureView>, count: usize) -> Vec<T> {
+    run_with(source, inputs, table.as_slice(), count)
+}
+
+/// The same with any number of textures.
+pub fn run_with<T: bytemuck::Pod>(source: &str, inputs: &[&[u8]], tables: &[&TextureView], count: usize) -> Vec<T> {
     let Gpu { device, queue, .. } = gpu();
     let size = (count * size_of::<T>()) as u64;
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
@@ -55,7 +60,7 @@ pub fn run<T: bytemuck::Pod>(source: &str, inputs: &[&[u8]], table: Option<&Text
         .zip(&buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
         .collect();
-    if let Some(view) = table {
+    for view in tables {
         entries.push(wgpu::BindGroupEntry {
             binding: entries.len() as u32,
             resource: wgpu::BindingResource::TextureView(view),

@@ -1,34 +1,10 @@
 //! The shipped files as text: what people who copy them rely on before anything runs.
 
 use std::path::Path;
+use velour::export::shaders::{SOURCES, Source};
 use wgpu::naga::{self, TypeInner};
 
 use super::reserved::reserved;
-
-/// Each file, with the declarations that its header's example takes for granted.
-const FILES: [(&str, &str); 4] = [
-    (
-        "ltc.wgsl",
-        "fn example(frame: mat3x3<f32>, last: vec3<f32>, corner: vec3<f32>, position: vec3<f32>, m_inv: mat3x3<f32>) {
-            var outline = ltc_begin(frame * (last - position));
-            var sum = 0.0;
-            var turn = LTC_LEVEL;",
-    ),
-    (
-        "ltc_sample.wgsl",
-        "struct Outline { p: vec3<f32>, q: vec3<f32>, normal: vec3<f32>, sine: f32 }
-        fn example(outline: Outline, m_inv: mat3x3<f32>, number: f32, form_factor: f32) {
-            var fan = ltc_sample_begin(number, form_factor);",
-    ),
-    (
-        "sheen.wgsl",
-        "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
-    ),
-    (
-        "ggx.wgsl",
-        "fn example(table: texture_2d<f32>, roughness: f32, mu: f32, light: vec3<f32>, f0: vec3<f32>, f90: vec3<f32>, form_factor: f32) {",
-    ),
-];
 
 const HEADER: [&str; 8] = [
     "// SPDX-License-Identifier: ",
@@ -55,8 +31,8 @@ fn compile(source: &str) -> Result<naga::Module, String> {
     Ok(module)
 }
 
-/// Breaches of the rules for files that people copy; `stem` is the file's name without its extension.
-fn problems(stem: &str, source: &str) -> Vec<String> {
+/// Breaches of the rules for files that people copy; `stem` is the file's name without its extension, and it compiles behind `before`.
+fn problems(stem: &str, before: &str, source: &str) -> Vec<String> {
     let mut problems = Vec::new();
     let lines: Vec<&str> = source.lines().collect();
     if lines.len() > 200 {
@@ -72,7 +48,7 @@ fn problems(stem: &str, source: &str) -> Vec<String> {
     {
         problems.push("preprocessor or directive".to_owned());
     }
-    let module = match compile(source) {
+    let module = match compile(&format!("{before}{source}")) {
         Ok(module) => module,
         Err(error) => return vec![error],
     };
@@ -107,19 +83,18 @@ fn has_stem(name: &str, stem: &str) -> bool {
 
 #[test]
 fn each_file_compiles_alone_and_is_made_to_be_copied() {
-    for (name, _) in FILES {
-        let stem = name.trim_end_matches(".wgsl");
-        assert_eq!(problems(stem, &source(name)), Vec::<String>::new(), "{name}");
+    for file in SOURCES {
+        assert_eq!(problems(file.stem, &file.before(), file.text), Vec::<String>::new(), "{}.wgsl", file.stem);
     }
 }
 
 #[test]
 fn the_examples_in_the_headers_compile() {
-    for (name, given) in FILES {
-        let source = source(name);
+    for file in SOURCES {
+        let Source { stem: name, text: source, given, .. } = file;
         let examples: Vec<&str> = source.lines().filter_map(|line| line.strip_prefix("// Example: ")).collect();
         assert_eq!(examples.len(), 1, "{name}");
-        let whole = format!("{source}\n{given}\n{}\n}}\n", examples[0]);
+        let whole = format!("{}{source}\n{given}\n{}\n}}\n", file.before(), examples[0]);
         compile(&whole).unwrap_or_else(|error| panic!("{name}: {error}"));
         let misspelt = whole
             .replace("let radiance", "let radiance = nobody; let x")
@@ -129,21 +104,22 @@ fn the_examples_in_the_headers_compile() {
     }
 }
 
+/// A test renders that file.
 #[test]
-fn the_readme_shades_with_what_it_says_to_copy() {
-    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+fn the_readme_shows_the_loop_over_lights() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
     let (_, rest) = readme.split_once("```wgsl\n").expect("the README shows how the files are used");
     let (example, _) = rest.split_once("```").expect("the example ends");
-    let files = FILES.map(|(name, _)| source(name)).concat();
-    compile(&format!("{files}\n{example}")).unwrap_or_else(|error| panic!("README.md: {error}"));
-    assert!(compile(example).is_err(), "the example stands on the files");
+    let lights = std::fs::read_to_string(root.join("examples/lights.wgsl")).unwrap();
+    assert!(lights.contains(example), "README.md shows other lines than examples/lights.wgsl has");
 }
 
 #[test]
 fn a_file_that_breaks_a_rule_is_found_out() {
     let good =
         HEADER.map(|begin| format!("{begin}some words\n")).concat() + "\nfn ltc_one() -> f32 {\n    return 1.0;\n}\n";
-    assert_eq!(problems("ltc", &good), Vec::<String>::new());
+    assert_eq!(problems("ltc", "", &good), Vec::<String>::new());
     for (addition, problem) in [
         ("fn other() {}", "name other"),
         ("struct Other { x: f32 }", "name Other"),
@@ -158,8 +134,8 @@ fn a_file_that_breaks_a_rule_is_found_out() {
         ("// #define LTC", "preprocessor or directive"),
         (&"\n".repeat(200), "213 lines"),
     ] {
-        assert_eq!(problems("ltc", &format!("{good}{addition}\n")), [problem], "{addition}");
+        assert_eq!(problems("ltc", "", &format!("{good}{addition}\n")), [problem], "{addition}");
     }
-    assert_eq!(problems("ltc", &good.replace("// Ranges", "// Extent")), ["header"]);
-    assert_eq!(problems("ltc", &good.replace("return 1.0", "return 1u")).len(), 1);
+    assert_eq!(problems("ltc", "", &good.replace("// Ranges", "// Extent")), ["header"]);
+    assert_eq!(problems("ltc", "", &good.replace("return 1.0", "return 1u")).len(), 1);
 }

@@ -5,6 +5,9 @@ mod files;
 mod filters;
 mod form_factor;
 mod ggx;
+#[cfg(feature = "cli")]
+mod golden;
+mod lights;
 mod millions;
 mod named_cases;
 mod polygons;
@@ -13,6 +16,7 @@ mod sampler;
 mod sampler_points;
 mod sampling;
 mod sheen;
+mod sheen_fit;
 mod sweeps;
 mod translated;
 mod vector;

@@ -7,9 +7,9 @@ use super::files::source;
 
 #[test]
 fn the_shipped_translations_are_those_that_are_made() {
-    for language in Language::ALL {
+    for (language, folder) in Language::ALL.into_iter().filter_map(|language| Some((language, language.folder()?))) {
         for file in SOURCES {
-            let name = format!("{}/{}.{}", language.folder(), file.stem, language.extension());
+            let name = format!("{folder}/{}.{}", file.stem, language.extension());
             let made = file.in_language(language).unwrap_or_else(|refusal| panic!("{}.wgsl, {refusal}", file.stem));
             assert!(source(&name) == made, "shaders/{name} is not what `velour export shaders` makes");
         }
@@ -141,7 +141,7 @@ fn each_language_is_written_as_it_is_spoken() {
             "float x = v.x\n        + v.y;",
         ),
     ] {
-        for (language, expected) in Language::ALL.into_iter().zip([glsl, hlsl, msl]) {
+        for (language, expected) in Language::ALL.into_iter().zip([glsl, glsl, hlsl, msl]) {
             let zero = if language == Language::Msl { "0.0f" } else { "0.0" };
             let found = body(&format!("    {wgsl}\n    return 0.0;"), language);
             assert_eq!(found, Ok(format!("    {expected}\n    return {zero};")), "{wgsl}");
@@ -176,6 +176,6 @@ fn what_is_not_translated_is_refused_with_its_line() {
         assert!(refusals.iter().any(|refusal| refusal.starts_with(problem)), "{statements}: {refusals:?}");
         assert!(refusals.iter().all(|refusal| !refusal.contains('\n')), "{refusals:?}");
     }
-    let global = translate("// A file.\n\n@group(0) @binding(0) var<uniform> x: f32;\n", "", &[], Language::Glsl);
+    let global = translate("// A file.\n\n@group(0) @binding(0) var<uniform> x: f32;\n", "", &[], Language::Glsl450);
     assert!(global.is_err());
 }

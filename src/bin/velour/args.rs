@@ -9,6 +9,7 @@ use crate::compare::Compare;
 use crate::export::Export;
 use crate::figures::Figures;
 use crate::fit::Fit;
+use crate::golden::GoldenCheck;
 #[cfg(feature = "window")]
 use crate::loading::Loading;
 use crate::reference::Reference;
@@ -77,9 +78,15 @@ pub enum Command {
     /// Makes all figures and the page that shows them: the table, its lobes and errors (.svg), the paper's and our
     /// comparisons (.png); what is there already, made with the same settings, is left
     Figures(Figures),
-    /// Writes what other engines take: shaders in their languages
+    /// Writes what other engines take: shaders in their languages, tables in their forms, golden numbers to check a port by
     #[command(subcommand)]
     Export(Export),
+    /// Judges a port of the shaders by the golden numbers: which of its numbers are off, and which mistake fits them
+    ///
+    /// The inputs are in tables/golden.csv and .json, which `velour export golden` makes; docs/golden.md says how a port is run on
+    /// them. Numbers may be off by the tolerances there; NaN is off. Rows that are not given are named, and are no fault. Exit code 1
+    /// where a number is off.
+    Golden(GoldenCheck),
     /// Prints adapters, limits, versions and table checksums
     #[cfg(feature = "gpu")]
     Info,

@@ -1,7 +1,7 @@
 //! The command line: what the user asks for, and how the run ends.
 //!
 //! Each command has a file of its name with its flags and its `run`: `view`, `render`, `reference`, `fit`, `compare`,
-//! `figures`, `info`; `args` lists them. The others are what commands share.
+//! `figures`, `export`, `golden`, `info`; `args` lists them. The others are what commands share.
 
 mod args;
 mod assignment;
@@ -13,6 +13,7 @@ mod exposed;
 mod failure;
 mod figures;
 mod fit;
+mod golden;
 #[cfg(feature = "gpu")]
 mod info;
 mod inputs;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
         Some(Command::Fit(fit)) => fit::run(&fit),
         Some(Command::Compare(compare)) => compare::run(&compare),
         Some(Command::Export(export)) => export::run(&export),
+        Some(Command::Golden(golden)) => golden::run(&golden),
         Some(Command::Figures(figures)) => figures::run(&figures),
     };
     match done {

@@ -5,8 +5,10 @@ use super::types::{Scalar, Type};
 /// A language of shaders that the files are translated to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
-    /// OpenGL's and Vulkan's: what is written is GLSL ES 3.00 and GLSL 4.50 alike.
-    Glsl,
+    /// OpenGL ES 3.0 and WebGL 2, and every later GLSL: textures come with their samplers.
+    GlslEs300,
+    /// Vulkan's, where textures are apart from samplers.
+    Glsl450,
     /// Direct3D's, of shader model 5.0 and later.
     Hlsl,
     /// Metal's, 1.1 and later.
@@ -15,32 +17,41 @@ pub enum Language {
 
 impl Language {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Glsl, Self::Hlsl, Self::Msl];
+    pub const ALL: [Self; 4] = [Self::GlslEs300, Self::Glsl450, Self::Hlsl, Self::Msl];
 
     /// The extension of a file's name.
     pub fn extension(self) -> &'static str {
         match self {
-            Self::Glsl => "glsl",
+            Self::GlslEs300 | Self::Glsl450 => "glsl",
             Self::Hlsl => "hlsl",
             Self::Msl => "metal",
         }
     }
 
-    /// The folder below `shaders/` in which the translated files stand.
-    pub fn folder(self) -> &'static str {
+    /// The folder below `shaders/` in which the translated files stand; where one folder serves two, those of the other are
+    /// made when they are asked for.
+    pub fn folder(self) -> Option<&'static str> {
         match self {
-            Self::Glsl => "glsl",
-            Self::Hlsl => "hlsl",
-            Self::Msl => "msl",
+            Self::GlslEs300 => Some("glsl"),
+            Self::Glsl450 => None,
+            Self::Hlsl => Some("hlsl"),
+            Self::Msl => Some("msl"),
         }
+    }
+
+    /// Whether it is a GLSL.
+    pub(super) fn is_glsl(self) -> bool {
+        matches!(self, Self::GlslEs300 | Self::Glsl450)
     }
 
     /// What a reader has to know before he pastes, in lines of comments.
     pub(super) fn notes(self) -> &'static str {
         match self {
-            Self::Glsl => {
-                "// Language: GLSL ES 3.00 and 4.50 alike. ES takes `precision highp float; precision highp int; precision highp sampler2D;` \
-                 before it.\n"
+            Self::GlslEs300 => {
+                "// Language: GLSL ES 3.00, where `precision highp float; precision highp int; precision highp sampler2D;` come before it, or any later GLSL.\n"
+            }
+            Self::Glsl450 => {
+                "// Language: GLSL 4.50 for Vulkan; where there are textures, `#extension GL_EXT_samplerless_texture_functions : require` comes before it.\n"
             }
             Self::Hlsl => {
                 "// Language: HLSL, shader model 5.0 and later. m_inv is used as mul(m_inv, v), whatever the packing of buffers.\n"
@@ -52,7 +63,7 @@ impl Language {
     /// What stands between the header and the rest.
     pub(super) fn preamble(self) -> &'static str {
         match self {
-            Self::Glsl | Self::Hlsl => "",
+            Self::GlslEs300 | Self::Glsl450 | Self::Hlsl => "",
             Self::Msl => "\n#include <metal_stdlib>\nusing namespace metal;\n",
         }
     }
@@ -60,7 +71,7 @@ impl Language {
     /// What stands before a constant's type.
     pub(super) fn constant(self) -> &'static str {
         match self {
-            Self::Glsl => "const ",
+            Self::GlslEs300 | Self::Glsl450 => "const ",
             Self::Hlsl => "static const ",
             Self::Msl => "constant ",
         }
@@ -69,7 +80,7 @@ impl Language {
     /// What stands before a function's result.
     pub(super) fn function(self) -> &'static str {
         match self {
-            Self::Glsl | Self::Hlsl => "",
+            Self::GlslEs300 | Self::Glsl450 | Self::Hlsl => "",
             // Files are included in several sources of one library.
             Self::Msl => "inline ",
         }
@@ -80,7 +91,7 @@ impl Language {
             (_, Type::Struct(name)) => name.clone(),
             (_, Type::Nothing) => "void".to_owned(),
             (_, Type::Scalar(of)) => scalar(*of).to_owned(),
-            (Self::Glsl, Type::Vector(size, of)) => {
+            (_, Type::Vector(size, of)) if self.is_glsl() => {
                 let prefix = match of {
                     Scalar::Bool => "b",
                     Scalar::I32 => "i",
@@ -90,9 +101,10 @@ impl Language {
                 format!("{prefix}vec{size}")
             }
             (_, Type::Vector(size, of)) => format!("{}{size}", scalar(*of)),
-            (Self::Glsl, Type::Matrix(size)) => format!("mat{size}"),
+            (_, Type::Matrix(size)) if self.is_glsl() => format!("mat{size}"),
             (_, Type::Matrix(size)) => format!("float{size}x{size}"),
-            (Self::Glsl, Type::Texture) => "sampler2D".to_owned(),
+            (Self::GlslEs300, Type::Texture) => "sampler2D".to_owned(),
+            (Self::Glsl450, Type::Texture) => "texture2D".to_owned(),
             (Self::Hlsl, Type::Texture) => "Texture2D".to_owned(),
             (Self::Msl, Type::Texture) => "texture2d<float>".to_owned(),
         }

@@ -27,6 +27,11 @@ impl Source {
         translate(self.text, self.given, &known, language)
     }
 
+    /// The WGSL before which it compiles: what it needs, and what is left to whoever copies it.
+    pub fn before(&self) -> String {
+        self.needed().map(|source| source.text).chain([self.theirs]).collect()
+    }
+
     /// Those without which it does not compile.
     pub fn needed(&self) -> impl Iterator<Item = &'static Self> {
         let needs = self.needs;
@@ -35,7 +40,7 @@ impl Source {
 }
 
 /// All of them, each after those that it is copied with.
-pub const SOURCES: [Source; 5] = [
+pub const SOURCES: [Source; 6] = [
     Source {
         stem: "ltc",
         text: include_str!("../../../shaders/ltc.wgsl"),
@@ -61,6 +66,13 @@ pub const SOURCES: [Source; 5] = [
         needs: &[],
         theirs: "",
         given: "fn example(table: texture_2d<f32>, alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
+    },
+    Source {
+        stem: "sheen_fit",
+        text: include_str!("../../../shaders/sheen_fit.wgsl"),
+        needs: &[],
+        theirs: "",
+        given: "fn example(alpha: f32, mu: f32, light: vec3<f32>, sheen_color: vec3<f32>, form_factor: f32) {",
     },
     Source {
         stem: "ggx",

@@ -107,7 +107,7 @@ impl Speller<'_> {
             return Ok(format!("mul({}, {})", self.inside(left)?, self.inside(right)?));
         }
         let is_by_component = matches!(kind, Type::Vector(_, Scalar::Bool));
-        if is_by_component && self.language == Language::Glsl {
+        if is_by_component && self.language.is_glsl() {
             let function = match operator.as_str() {
                 "==" => "equal",
                 "!=" => "notEqual",
@@ -129,7 +129,7 @@ impl Speller<'_> {
         let is_ours = self.scope.declarations.function(word).is_some();
         if matches!(kind, Type::Struct(_)) && !is_ours {
             return match self.language {
-                Language::Glsl => self.with_arguments(word, arguments),
+                Language::GlslEs300 | Language::Glsl450 => self.with_arguments(word, arguments),
                 Language::Msl => Ok(tight(format!("{word}{{{}}}", self.arguments(arguments)?))),
                 Language::Hlsl => Err(Refusal::new(
                     whole.line,
@@ -146,7 +146,7 @@ impl Speller<'_> {
             _ => match built_in(word) {
                 Some(function) => {
                     let name = match self.language {
-                        Language::Glsl => function.glsl,
+                        Language::GlslEs300 | Language::Glsl450 => function.glsl,
                         Language::Hlsl => function.hlsl,
                         Language::Msl => function.msl,
                     };
@@ -217,10 +217,18 @@ impl Speller<'_> {
         let to_word = to.component();
         let name = match (self.language, from, to_word) {
             (Language::Msl, ..) => format!("as_type<{}>", self.language.type_name(to)),
-            (Language::Glsl, Some(Scalar::F32), Some(Scalar::U32)) => "floatBitsToUint".to_owned(),
-            (Language::Glsl, Some(Scalar::F32), Some(Scalar::I32)) => "floatBitsToInt".to_owned(),
-            (Language::Glsl, Some(Scalar::U32), Some(Scalar::F32)) => "uintBitsToFloat".to_owned(),
-            (Language::Glsl, Some(Scalar::I32), Some(Scalar::F32)) => "intBitsToFloat".to_owned(),
+            (Language::GlslEs300 | Language::Glsl450, Some(Scalar::F32), Some(Scalar::U32)) => {
+                "floatBitsToUint".to_owned()
+            }
+            (Language::GlslEs300 | Language::Glsl450, Some(Scalar::F32), Some(Scalar::I32)) => {
+                "floatBitsToInt".to_owned()
+            }
+            (Language::GlslEs300 | Language::Glsl450, Some(Scalar::U32), Some(Scalar::F32)) => {
+                "uintBitsToFloat".to_owned()
+            }
+            (Language::GlslEs300 | Language::Glsl450, Some(Scalar::I32), Some(Scalar::F32)) => {
+                "intBitsToFloat".to_owned()
+            }
             (Language::Hlsl, Some(Scalar::F32), Some(Scalar::U32)) => "asuint".to_owned(),
             (Language::Hlsl, Some(Scalar::F32), Some(Scalar::I32)) => "asint".to_owned(),
             (Language::Hlsl, Some(Scalar::U32 | Scalar::I32), Some(Scalar::F32)) => "asfloat".to_owned(),
@@ -232,7 +240,7 @@ impl Speller<'_> {
     fn dimensions(&self, texture: &Expression) -> Result<Written, Refusal> {
         let texture = self.write(texture)?.text;
         Ok(tight(match self.language {
-            Language::Glsl => format!("uvec2(textureSize({texture}, 0))"),
+            Language::GlslEs300 | Language::Glsl450 => format!("uvec2(textureSize({texture}, 0))"),
             Language::Hlsl => dimensions_name(&texture),
             Language::Msl => format!("uint2({texture}.get_width(), {texture}.get_height())"),
         }))
@@ -253,7 +261,7 @@ impl Speller<'_> {
         };
         let is_split = matches!(&at.what, Form::Call { name, .. } if name.word == "vec2");
         Ok(tight(match self.language {
-            Language::Glsl => format!("texelFetch({texture}, ivec2({parts}), 0)"),
+            Language::GlslEs300 | Language::Glsl450 => format!("texelFetch({texture}, ivec2({parts}), 0)"),
             Language::Hlsl => format!("{texture}.Load(int3({parts}, 0))"),
             Language::Msl if is_split => format!("{texture}.read(uint2({parts}))"),
             Language::Msl => format!("{texture}.read({parts})"),

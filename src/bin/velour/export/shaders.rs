@@ -24,9 +24,9 @@ pub struct Shaders {
 /// A language, with the version where one is meant.
 #[derive(Clone, Copy, ValueEnum, PartialEq)]
 enum Language {
-    /// OpenGL ES 3.0 and WebGL 2; the same files as glsl-450
+    /// OpenGL ES 3.0 and WebGL 2, and any GLSL in which textures come with their samplers
     GlslEs300,
-    /// OpenGL and Vulkan; the same files as glsl-es300
+    /// Vulkan, with textures apart from samplers
     #[value(name = "glsl-450")]
     Glsl450,
     /// Direct3D, shader model 5.0 and later
@@ -42,7 +42,7 @@ enum Language {
 impl Language {
     fn extension(self) -> &'static str {
         match self {
-            Self::GlslEs300 | Self::Glsl450 => shaders::Language::Glsl.extension(),
+            Self::GlslEs300 | Self::Glsl450 => shaders::Language::Glsl450.extension(),
             Self::Hlsl => shaders::Language::Hlsl.extension(),
             Self::Msl => shaders::Language::Msl.extension(),
             Self::Wgsl => "wgsl",
@@ -56,7 +56,8 @@ impl Language {
             text.map(String::into_bytes)
         };
         let bytes = match self {
-            Self::GlslEs300 | Self::Glsl450 => translated(shaders::Language::Glsl),
+            Self::GlslEs300 => translated(shaders::Language::GlslEs300),
+            Self::Glsl450 => translated(shaders::Language::Glsl450),
             Self::Hlsl => translated(shaders::Language::Hlsl),
             Self::Msl => translated(shaders::Language::Msl),
             Self::Wgsl => Ok(source.text.as_bytes().to_vec()),
