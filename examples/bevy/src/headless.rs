@@ -31,7 +31,7 @@ pub struct Headless {
 struct Bytes(Option<Vec<u8>>);
 
 impl Headless {
-    /// Without entities yet: what is in `app`'s world when `picture` is called is drawn, by cameras that draw into `target`.
+    /// Without entities yet: `picture` draws what is in `app`'s world by then, by cameras that draw into `target`.
     pub fn new(size: UVec2, format: TextureFormat) -> Self {
         let windows = WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() };
         let renderer = RenderPlugin { synchronous_pipeline_compilation: true, ..default() };

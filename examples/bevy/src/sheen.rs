@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // SPDX-FileCopyrightText: 2026 The Velour authors
-//! A sheen for Bevy's `StandardMaterial` under `RectLight`s. Made to be copied, with `sheen.wgsl` beside it and the files that are embedded here.
+//! A sheen for Bevy's `StandardMaterial` under `RectLight`s. Made to be copied, with `sheen.wgsl` beside it and the
+//! files that are embedded here.
 
 use bevy::asset::{RenderAssetUsages, uuid_handle};
 use bevy::camera::Exposure;
@@ -34,7 +35,7 @@ pub type SheenMaterial = ExtendedMaterial<StandardMaterial, Sheen>;
 /// An exposure of 1: what a camera with it draws is radiance.
 pub const EXPOSURE_OF_ONE: Exposure = Exposure { ev100: -0.263_034_4 };
 
-/// The `intensity`, in lumens, of a `RectLight` that has a radiance, in a camera's exposure of 1: Bevy divides by pi and the area.
+/// The `intensity`, in lumens, of a `RectLight` of a radiance, in an exposure of 1: Bevy divides by pi and the area.
 /// A camera with another exposure takes it times `1.0 / exposure.exposure()`.
 pub fn rect_light_intensity(radiance: f32, width: f32, height: f32) -> f32 {
     radiance * std::f32::consts::PI * width * height

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // SPDX-FileCopyrightText: 2026 The Velour authors
-// The fragment shader of a StandardMaterial under a sheen. sheen.rs puts examples/lights.wgsl behind it, whose six functions are here.
+// The fragment shader of a StandardMaterial under a sheen. sheen.rs puts examples/lights.wgsl behind it, and what that
+// asks of its reader is here.
 
 #import bevy_pbr::{
     forward_io::{VertexOutput, FragmentOutput},

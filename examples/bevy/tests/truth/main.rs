@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // SPDX-FileCopyrightText: 2026 The Velour authors
-//! Bevy with our shaders against `velour render`, in linear radiance. VELOUR says where velour is; else the repository's target folder.
+//! Bevy with our shaders against `velour render`, in linear radiance. VELOUR says where velour is; else it is looked
+//! for in the repository's target folder.
 
 mod gltf;
 mod scene;
@@ -144,8 +145,8 @@ fn bevys_own_terms_below_the_sheen_are_another_picture() {
     assert!(!found.agrees() && found.mean < 0.3, "{found:?}");
 }
 
-/// The base is Bevy's alone, which velour does not draw; so the sheen is told from it. Over a base, it adds sheen to red and takes the same share of
-/// all channels of the base: with no sheen in blue, over.r below.b - over.b below.r = sheen.r below.b.
+/// The base is Bevy's, which velour does not draw; so the sheen is told from it. It takes one share of all channels of
+/// the base, and adds to red what it is, to blue nothing: over.r below.b - over.b below.r = sheen.r below.b.
 #[test]
 fn the_sheen_over_bevys_terms_is_that_of_velour() {
     let in_color = |name, color| drawn(name, |sheen, _| (sheen.terms, sheen.color) = (RectLightTerms::Bevy, color));

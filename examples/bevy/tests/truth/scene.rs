@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD
 // SPDX-FileCopyrightText: 2026 The Velour authors
-//! One scene, for Bevy and as glTF: two balls on a floor under two rectangle lights, of which one reaches below the floor's horizon.
+//! One scene, for Bevy and as glTF: two balls on a floor under two rectangle lights, of which one reaches below the
+//! floor's horizon.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
