@@ -32,7 +32,7 @@
 //! | scatter light in a path tracer | `examples/brdf.rs`, [`models`] | |
 //! | the same on a device | `examples/path_tracer` | `gpu`, `cli` |
 //! | light surfaces by polygons in a shader | `examples/lights.wgsl`, `shaders/`, `docs/integration.md` | |
-//! | put the sheen into an engine | `examples/three`, `examples/bevy` | |
+//! | put the sheen into an engine | `examples/three`, `examples/babylon`, `examples/bevy` | |
 //!
 //! The sheen's numbers at any roughness and view angle, without a graphics device:
 //!

@@ -169,6 +169,14 @@ fn what_is_not_translated_is_refused_with_its_line() {
         ("    let x = Two(1.0, 2.0).x;", "line 6: Two is made within an expression"),
         ("    let x = 'a';", "line 6: ''' is not understood"),
         ("    let x = 5 % 2;", "line 6: % between"),
+        ("    let texture = 1.0;", "line 6: the name texture"),
+        ("    let x = 1.0;  // one \\", "line 6: a comment that ends in a backslash"),
+        ("    let x = Two(1.0, 2.0);\n    let y = select(x, x, true);", "line 7: a choice between structs"),
+        (
+            "    let result = v;\n    return 0.0;\n}\nconst AFTER = 1.0;\nfn g() {",
+            "line 9: a constant or struct behind",
+        ),
+        ("    return 0.0;\n}\nstruct Later { x: f32 }\nfn g() {", "line 8: a constant or struct behind"),
         ("    if 1.0 {\n    }", "line 6: a condition"),
     ] {
         let refusals: Vec<String> =
@@ -176,6 +184,8 @@ fn what_is_not_translated_is_refused_with_its_line() {
         assert!(refusals.iter().any(|refusal| refusal.starts_with(problem)), "{statements}: {refusals:?}");
         assert!(refusals.iter().all(|refusal| !refusal.contains('\n')), "{refusals:?}");
     }
+    let made = translate("// A file.\n\nconst ROOT = sqrt(2.0);\n", "", &[], Language::Msl).unwrap_err();
+    assert_eq!(made.line, 3);
     let global = translate("// A file.\n\n@group(0) @binding(0) var<uniform> x: f32;\n", "", &[], Language::Glsl450);
     assert!(global.is_err());
 }

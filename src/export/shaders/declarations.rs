@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::parse::File;
 use super::refusal::Refusal;
+use super::reserved::check;
 use super::syntax::{Function, Item, TypeName, Typed};
 use super::types::Type;
 
@@ -28,6 +29,7 @@ impl Declarations {
     pub fn add(&mut self, file: &File) -> Result<(), Refusal> {
         for item in &file.items {
             if let Item::Struct { name, fields } = &item.what {
+                check(name, item.line)?;
                 let fields = fields.iter().map(|field| self.typed(&field.what, field.line));
                 let fields = fields.collect::<Result<_, _>>()?;
                 self.structs.insert(name.clone(), fields);
@@ -35,6 +37,7 @@ impl Declarations {
         }
         for item in &file.items {
             if let Item::Function(function) = &item.what {
+                check(&function.name, item.line)?;
                 let signature = self.signature(function, item.line)?;
                 self.functions.insert(function.name.clone(), signature);
             }
@@ -47,12 +50,13 @@ impl Declarations {
     }
 
     fn signature(&self, function: &Function, line: usize) -> Result<Signature, Refusal> {
-        let parameters = function.parameters.iter().map(|parameter| self.type_of(&parameter.kind, line));
+        let parameters = function.parameters.iter().map(|parameter| self.typed(parameter, line).map(|(_, kind)| kind));
         let result = function.result.as_ref().map_or(Ok(Type::Nothing), |name| self.type_of(name, line))?;
         Ok(Signature { parameters: parameters.collect::<Result<_, _>>()?, result })
     }
 
     fn typed(&self, typed: &Typed, line: usize) -> Result<(String, Type), Refusal> {
+        check(&typed.name, line)?;
         Ok((typed.name.clone(), self.type_of(&typed.kind, line)?))
     }
 

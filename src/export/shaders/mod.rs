@@ -14,6 +14,7 @@ mod functions;
 mod language;
 mod parse;
 mod refusal;
+mod reserved;
 mod scope;
 mod sources;
 mod spelling;
@@ -28,6 +29,7 @@ mod write;
 
 pub use language::Language;
 pub use refusal::Refusal;
+pub use reserved::is_reserved;
 pub use sources::{SOURCES, Source};
 pub use spirv::spirv;
 pub use translate::translate;

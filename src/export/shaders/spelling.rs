@@ -62,6 +62,10 @@ impl Speller<'_> {
             Form::Call { name, arguments } if name.word == "select" => {
                 self.scope.type_of(expression)?;
                 let [no, yes, when] = arguments.as_slice() else { return refuse("select takes three values") };
+                let is_struct = matches!(self.scope.type_of(yes)?, Type::Struct(_));
+                if is_struct {
+                    return refuse("a choice between structs, which HLSL does not know");
+                }
                 let text = format!("{} ? {} : {}", self.operand(when)?, self.operand(yes)?, self.operand(no)?);
                 return Ok(Written { text, binds: Binds::Choice });
             }

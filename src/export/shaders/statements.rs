@@ -2,10 +2,11 @@
 
 use super::language::Language;
 use super::refusal::Refusal;
+use super::reserved::check;
 use super::scope::Scope;
 use super::spelling::{dimensions_name, spell, spell_after};
 use super::syntax::{Block, Expression, Form, Lead, Noted, Otherwise, Statement, TypeName};
-use super::types::{BOOL, Type};
+use super::types::{BOOL, Scalar, Type};
 use super::walk::{each, own};
 
 /// How much deeper a block stands.
@@ -80,7 +81,7 @@ impl<'a> Statements<'a> {
         for texture in textures {
             let texture = spell(texture, self.language, &self.scope)?;
             let size = dimensions_name(&texture);
-            self.add(&size, Type::Vector(2, super::types::Scalar::U32), statement.line)?;
+            self.add(&size, Type::Vector(2, Scalar::U32), statement.line)?;
             found.push(format!("uint2 {size};"));
             found.push(format!("{texture}.GetDimensions({size}.x, {size}.y);"));
         }
@@ -89,6 +90,7 @@ impl<'a> Statements<'a> {
 
     /// Enters a name. One that hides another is refused: languages differ in what they allow.
     fn add(&mut self, name: &str, kind: Type, line: usize) -> Result<(), Refusal> {
+        check(name, line)?;
         if self.scope.has(name) || self.scope.declarations.function(name).is_some() {
             return Err(Refusal::new(line, format!("the name {name} hides another one")));
         }
@@ -152,7 +154,7 @@ impl<'a> Statements<'a> {
             Statement::Assign { place, operator, value } => {
                 let (place_type, value_type) = (self.scope.type_of(place)?, self.scope.type_of(value)?);
                 let is_scaled = ["*=", "/="].contains(&operator.as_str())
-                    && value_type == Type::Scalar(place_type.component().unwrap_or(super::types::Scalar::Bool));
+                    && value_type == Type::Scalar(place_type.component().unwrap_or(Scalar::Bool));
                 if place_type != value_type && !is_scaled {
                     return Err(Refusal::new(line, "a value of another type than its place"));
                 }
@@ -222,7 +224,7 @@ impl<'a> Statements<'a> {
             return Ok(format!("return{};", self.after(" ", value)?));
         }
         let kind = self.language.type_name(&self.result);
-        if self.scope.has("result") {
+        if self.scope.has("result") || self.scope.declarations.function("result").is_some() {
             return Err(Refusal::new(value.line, "the name result, which HLSL's result takes"));
         }
         Ok(format!("{kind} result = {};\n{:indent$}return result;", self.members(value)?, ""))

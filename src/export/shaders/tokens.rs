@@ -60,6 +60,10 @@ fn token(text: &str) -> Result<(Kind, usize), String> {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
     let first = text.chars().next().unwrap_or_default();
     if text.starts_with("//") {
+        // Where there is a preprocessor, the next line would belong to it.
+        if text.ends_with('\\') {
+            return Err("a comment that ends in a backslash".to_owned());
+        }
         return Ok((Kind::Comment, text.len()));
     }
     if first.is_ascii_alphabetic() || first == '_' {

@@ -5,6 +5,7 @@ use super::language::Language;
 use super::parse::{File, parse};
 use super::refusal::Refusal;
 use super::scope::Scope;
+use super::statements::lead;
 use super::syntax::{Item, Lead, Noted};
 use super::write::write;
 
@@ -31,7 +32,7 @@ pub fn translate(text: &str, given: &str, known: &[&str], language: Language) ->
             Some(example) => {
                 format!("{EXAMPLE}{}\n", translate_example(example, given, declarations.clone(), language)?)
             }
-            None => super::statements::lead(&[Lead::Comment(line)], 0, language),
+            None => lead(&[Lead::Comment(line)], 0, language),
         };
     }
     Ok(written + language.notes() + language.preamble() + &write(&file, language, &declarations)?)

@@ -1,6 +1,7 @@
 //! Looking through what a file is made of.
 
 use super::syntax::{Block, Expression, Form, Otherwise, Statement};
+use super::types::{Type, generic};
 
 /// Calls `see` with an expression and all in it.
 pub(super) fn each<'a>(expression: &'a Expression, see: &mut dyn FnMut(&'a Expression)) {
@@ -29,6 +30,17 @@ pub(super) fn own(statement: &Statement) -> Vec<&Expression> {
         }
         Statement::Break | Statement::Continue => Vec::new(),
     }
+}
+
+/// Whether a value is more than numbers, and vectors and matrices of them.
+pub(super) fn calls_function(value: &Expression) -> bool {
+    let mut found = false;
+    each(value, &mut |inner| {
+        if let Form::Call { name, .. } = &inner.what {
+            found |= Type::built_in(name).is_none() && generic(&name.word).is_none();
+        }
+    });
+    found
 }
 
 /// The names of all functions called in a block.

@@ -4,12 +4,13 @@ use super::declarations::Declarations;
 use super::language::Language;
 use super::parse::{File, parse_head};
 use super::refusal::Refusal;
+use super::reserved::check;
 use super::scope::Scope;
 use super::spelling::{separator, spell};
-use super::statements::Statements;
-use super::syntax::{Function, Item, Lead, Noted, TypeName, Typed};
+use super::statements::{self, Statements};
+use super::syntax::{Expression, Function, Item, Lead, Noted, TypeName, Typed};
 use super::types::Type;
-use super::walk::calls;
+use super::walk::{calls, calls_function};
 
 /// Writes a file whose names, and those of the files that it is copied with, are declared.
 pub(super) fn write(file: &File, language: Language, declarations: &Declarations) -> Result<String, Refusal> {
@@ -17,6 +18,10 @@ pub(super) fn write(file: &File, language: Language, declarations: &Declarations
     let mut text = String::new();
     let first_function = file.items.iter().position(|item| matches!(item.what, Item::Function(_)));
     for (index, item) in file.items.iter().enumerate() {
+        let is_function = matches!(item.what, Item::Function(_));
+        if !is_function && first_function.is_some_and(|first| first < index) {
+            return Err(Refusal::new(item.line, "a constant or struct behind a function, which may need it"));
+        }
         if Some(index) == first_function {
             text += &writer.prototypes(file, item.line)?;
         }
@@ -40,7 +45,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn lead(&self, lead: &[Lead], indent: usize) -> String {
-        super::statements::lead(lead, indent, self.language)
+        statements::lead(lead, indent, self.language)
     }
 
     /// Comments that tell heads of functions tell them in this language.
@@ -60,18 +65,22 @@ impl Writer<'_> {
     }
 
     fn note(&self, comment: Option<&String>) -> String {
-        super::statements::note(comment, self.language)
+        statements::note(comment, self.language)
     }
 
     fn constant(
         &self,
         name: &str,
         kind: Option<&TypeName>,
-        value: &super::syntax::Expression,
+        value: &Expression,
         item: &Noted<Item>,
     ) -> Result<String, Refusal> {
+        check(name, item.line)?;
         let scope = Scope::new(self.declarations);
         let found = scope.type_of(value)?;
+        if calls_function(value) {
+            return Err(Refusal::new(item.line, "a constant that a function makes, which Metal does not know"));
+        }
         if kind.is_some_and(|kind| self.declarations.type_of(kind, item.line).is_ok_and(|kind| kind != found)) {
             return Err(Refusal::new(item.line, format!("{name} has a value of another type")));
         }
