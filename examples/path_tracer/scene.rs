@@ -100,7 +100,10 @@ fn lacks(drawn: &Drawn) -> Vec<&'static str> {
         ("textures", any(&|index| material(index).textures.iter().any(Option::is_some))),
         ("opacity", any(&|index| material(index).alpha_mode != AlphaMode::Opaque)),
         ("unlit materials", any(&|index| material(index).unlit)),
-        ("another layering than KHR_materials_sheen's", any(&|at| sheen(at).is_some_and(|s| s.layering != Layering::Gltf))),
+        (
+            "another layering than KHR_materials_sheen's",
+            any(&|at| sheen(at).is_some_and(|s| s.layering != Layering::Gltf)),
+        ),
         ("another sheen than the transformed cosine", any(&|at| sheen(at).is_some_and(|s| s.model != SheenModel::Ltc))),
         ("vertex colours", meshes.iter().any(|mesh| !mesh.colors.is_empty())),
         ("lights without extent", !drawn.punctual_lights.is_empty()),
