@@ -104,7 +104,7 @@ fn differences(found: &[Estimate], expected: &[Estimate], rounding: f64) -> Resu
         let error = found.error.hypot(expected.error).hypot(rounding * expected.mean);
         let off = (found.mean - expected.mean).abs() / error;
         let (region, channel) = (index / 3, index % 3);
-        if found.mean != expected.mean && !(off <= most) {
+        if found.mean != expected.mean && (off > most || off.is_nan()) {
             let Estimate { mean, error } = *found;
             return Err(format!(
                 "region {region}, channel {channel}: {mean} +- {error}, not {} +- {}: {off} errors apart, of {most}",
