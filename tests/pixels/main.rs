@@ -26,6 +26,7 @@ mod modelling;
 mod obstacles;
 mod opengl;
 mod overwriting;
+mod path_tracer;
 mod poses;
 mod radiance;
 mod reference;
