@@ -54,7 +54,7 @@ float ltc_side(float3 light_normal, float3 to_vertex, bool two_sided) {
     if (abs(height) <= LTC_IN_PLANE * length(to_vertex) || (height < 0.0 && !two_sided)) {
         return 0.0;
     }
-    return sign(height);
+    return float(sign(height));
 }
 
 // Starts a contour at its last vertex, so that walking on to every vertex in turn closes it.

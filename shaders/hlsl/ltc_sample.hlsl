@@ -76,7 +76,7 @@ LtcSampleFan ltc_sample_edge(LtcSampleFan before, float3 p, float3 q, float3 nor
 // The point's unit direction, from another uniform number; where there is nothing to draw, 0.
 float3 ltc_sample_point(LtcSampleFan fan, float3x3 m_inv, float number) {
     float sum = fan.sectors.x + fan.sectors.y + fan.sectors.z;
-    float3 sectors = fan.sectors * sign(sum);
+    float3 sectors = fan.sectors * float(sign(sum));
     bool3 below = sectors < (float3)0.0;
     bool is_around = !any(below);
     // A form factor that has been rounded up leads past the last triangle, which is then gone through again.

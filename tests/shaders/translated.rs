@@ -35,7 +35,7 @@ fn every_file_that_is_copied_is_translated() {
 /// The body of `fn f(v: vec3<f32>, m: mat3x3<f32>, n: u32, table: texture_2d<f32>) -> f32`, in a language, or why not.
 fn body(statements: &str, language: Language) -> Result<String, String> {
     let text = format!(
-        "// A file.\n\nstruct Two {{ x: f32, y: f32 }}\n\nfn f(v: vec3<f32>, m: mat3x3<f32>, n: u32, table: texture_2d<f32>) -> f32 {{\n{statements}\n}}\n"
+        "// A file.\n\nstruct Two {{ x: f32, y: f32 }}\n\nfn mat_of(v: vec3<f32>) -> mat3x3<f32> {{\n    return mat3x3(v, v, v);\n}}\n\nfn f(v: vec3<f32>, m: mat3x3<f32>, n: u32, table: texture_2d<f32>) -> f32 {{\n{statements}\n}}\n"
     );
     let written = translate(&text, "", &[], language).map_err(|refusal| refusal.to_string())?;
     let (_, body) = written.rsplit_once("table) {\n").expect("the function has a head");
@@ -102,6 +102,20 @@ fn each_language_is_written_as_it_is_spoken() {
             "uint3 x = asuint(v);",
             "uint3 x = as_type<uint3>(v);",
         ),
+        ("let x = - -v.x;", "float x = - -v.x;", "float x = - -v.x;", "float x = - -v.x;"),
+        ("let x = sign(v);", "vec3 x = sign(v);", "float3 x = float3(sign(v));", "float3 x = sign(v);"),
+        (
+            "let x = transpose(mat_of(v));",
+            "mat3 x = transpose(mat_of(v));",
+            "float3x3 x = transpose(mat_of(v));",
+            "float3x3 x = transpose(mat_of(v));",
+        ),
+        (
+            "if v.x > 0.0 {\n    } else if textureDimensions(table, 0).x > n {\n    }",
+            "if (v.x > 0.0) {\n    } else if (uvec2(textureSize(table, 0)).x > n) {\n    }",
+            "uint2 table_size;\n    table.GetDimensions(table_size.x, table_size.y);\n    if (v.x > 0.0) {\n    } else if (table_size.x > n) {\n    }",
+            "if (v.x > 0.0f) {\n    } else if (uint2(table.get_width(), table.get_height()).x > n) {\n    }",
+        ),
         ("let x = inverseSqrt(v);", "vec3 x = inversesqrt(v);", "float3 x = rsqrt(v);", "float3 x = rsqrt(v);"),
         (
             "let x = mix(v, v, 1e-3);",
@@ -149,43 +163,74 @@ fn each_language_is_written_as_it_is_spoken() {
     }
 }
 
+/// What is refused in every language, and where.
 #[test]
 fn what_is_not_translated_is_refused_with_its_line() {
     for (statements, problem) in [
-        ("    var x: array<f32, 4>;", "line 6: '<'"),
-        ("    loop {\n    }", "line 6: '{'"),
-        ("    let x = v.x * 2;", "line 6: * between"),
-        ("    let x = vec3(1, 2.0, 3.0);", "line 6: vec3 of these arguments"),
-        ("    var x: f32;", "line 6: x without a value"),
-        ("    let x = nobody(v);", "line 6: nobody"),
-        ("    let x = v.q;", "line 6: Vector(3, F32) has no member q"),
-        ("    let x = select(v, v, v < v);", "line 6: select"),
-        ("    let x = 1.0; // one\n    let y = 1.0 + // two\n    x;", "line 7: a comment"),
-        ("    let x = 1.0;\n    if x > 0.0 {\n        let x = 2.0;\n    }", "line 8: the name x hides"),
-        ("    let x = textureSampleLevel(table, v.xy, 0.0);", "line 6: textureSampleLevel"),
-        ("    let x = textureLoad(table, vec2(n), 1);", "line 6: a level"),
-        ("    return 1u;", "line 6: a result of another type"),
-        ("    var x = m;\n    x[0] = v;", "line 7: a value for a part of a matrix"),
-        ("    let x = Two(1.0, 2.0).x;", "line 6: Two is made within an expression"),
-        ("    let x = 'a';", "line 6: ''' is not understood"),
-        ("    let x = 5 % 2;", "line 6: % between"),
-        ("    let texture = 1.0;", "line 6: the name texture"),
-        ("    let x = 1.0;  // one \\", "line 6: a comment that ends in a backslash"),
-        ("    let x = Two(1.0, 2.0);\n    let y = select(x, x, true);", "line 7: a choice between structs"),
+        ("    var x: array<f32, 4>;", "line 10: '<'"),
+        ("    loop {\n    }", "line 10: '{'"),
+        ("    let x = v.x * 2;", "line 10: * between"),
+        ("    let x = vec3(1, 2.0, 3.0);", "line 10: vec3 of these arguments"),
+        ("    var x: f32;", "line 10: x without a value"),
+        ("    let x = nobody(v);", "line 10: nobody"),
+        ("    let x = v.q;", "line 10: Vector(3, F32) has no member q"),
+        ("    let x = select(v, v, v < v);", "line 10: select"),
+        ("    let x = 1.0; // one\n    let y = 1.0 + // two\n    x;", "line 11: a comment"),
+        ("    let x = 1.0;\n    if x > 0.0 {\n        let x = 2.0;\n    }", "line 12: the name x hides"),
+        ("    let x = textureSampleLevel(table, v.xy, 0.0);", "line 10: textureSampleLevel"),
+        ("    let x = textureLoad(table, vec2(n), 1);", "line 10: a level"),
+        ("    let x = textureDimensions(table, 1);", "line 10: a level"),
+        ("    return 1u;", "line 10: a result of another type"),
+        ("    var x = m;\n    x[0] = v;", "line 11: a value for a part of a matrix"),
+        ("    var x = m;\n    x[0][1] = 2.0;", "line 11: a value for a part of a matrix"),
+        ("    var x = m;\n    x *= m;", "line 11: a product of matrices"),
+        ("    let x = 'a';", "line 10: ''' is not understood"),
+        ("    let x = 5 % 2;", "line 10: % between"),
+        ("    let x = 1E5;", "line 10: the literal 1E5"),
+        ("    let x = 0x1p3;", "line 10: the literal 0x1p3"),
+        ("    let x = 5000000000;", "line 10: the literal 5000000000"),
+        ("    let x = any(v.x < v.y);", "line 10: any"),
+        ("    let x = abs(n);", "line 10: abs"),
+        ("    let x = sign(1);", "line 10: sign"),
+        ("    let texture = 1.0;", "line 10: the name texture"),
+        ("    let float3 = 1.0;", "line 10: the name float3"),
+        ("    let mat4x3 = 1.0;", "line 10: the name mat4x3"),
+        ("    let lessThan = 1.0;", "line 10: the name lessThan"),
+        ("    let x = 1.0;  // one \\", "line 10: a comment that ends in a backslash"),
+        ("    let x = Two(1.0, 2.0);\n    let y = select(x, x, true);", "line 11: a choice between structs"),
         (
             "    let result = v;\n    return 0.0;\n}\nconst AFTER = 1.0;\nfn g() {",
-            "line 9: a constant or struct behind",
+            "line 13: a constant or struct behind",
         ),
-        ("    return 0.0;\n}\nstruct Later { x: f32 }\nfn g() {", "line 8: a constant or struct behind"),
-        ("    if 1.0 {\n    }", "line 6: a condition"),
+        ("    return 0.0;\n}\nstruct Later { x: f32 }\nfn g() {", "line 12: a constant or struct behind"),
+        ("    return 0.0;\n}\n//     fn h(x: q32) -> f32\nfn g() {", "line 12: the type q32"),
+        ("    if 1.0 {\n    }", "line 10: a condition"),
     ] {
-        let refusals: Vec<String> =
-            Language::ALL.into_iter().filter_map(|language| body(statements, language).err()).collect();
-        assert!(refusals.iter().any(|refusal| refusal.starts_with(problem)), "{statements}: {refusals:?}");
-        assert!(refusals.iter().all(|refusal| !refusal.contains('\n')), "{refusals:?}");
+        for language in Language::ALL {
+            let refusal = body(statements, language).expect_err(statements);
+            assert!(refusal.starts_with(problem), "{statements} in {language:?}: {refusal}");
+            assert!(!refusal.contains('\n'), "{refusal}");
+        }
     }
-    let made = translate("// A file.\n\nconst ROOT = sqrt(2.0);\n", "", &[], Language::Msl).unwrap_err();
-    assert_eq!(made.line, 3);
-    let global = translate("// A file.\n\n@group(0) @binding(0) var<uniform> x: f32;\n", "", &[], Language::Glsl450);
-    assert!(global.is_err());
+    let hlsl = body("    let x = Two(1.0, 2.0).x;", Language::Hlsl).unwrap_err();
+    assert!(hlsl.starts_with("line 10: Two is made within an expression"), "{hlsl}");
+}
+
+#[test]
+fn what_is_not_translated_at_the_top_is_refused_with_its_line() {
+    for (text, line) in [
+        ("// A file.\n\nconst ROOT = sqrt(2.0);\n", 3),
+        ("// A file.\n\nconst TWICE = 2.0 * vec2(1.0, 2.0);\n", 3),
+        ("// A file.\n\n@group(0) @binding(0) var<uniform> x: f32;\n", 3),
+        ("// A file.\n\nfn sampler2D() {\n}\n", 3),
+        ("// A file.\n\nstruct S {\n    half: f32,\n}\n", 4),
+        ("// A file.\n// Example: let x = nobody;\n\nconst ONE = 1.0;\n", 2),
+    ] {
+        let refusal = translate(text, "fn example() {", &[], Language::Msl).expect_err(text);
+        assert_eq!(refusal.line, line, "{text}: {refusal}");
+    }
+    let before = translate("const ONE = 1.0;\n", "", &["const TWO = 2.0 * 1;\n"], Language::Hlsl).unwrap_err();
+    assert!(before.problem.starts_with("of a text before it"), "{before}");
+    let comments = "// SPDX-License-Identifier: 0BSD\n";
+    assert!(translate(comments, "", &[], Language::Hlsl).unwrap().contains(comments));
 }

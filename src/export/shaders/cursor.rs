@@ -57,7 +57,7 @@ impl<'a> Cursor<'a> {
             if token.kind != Kind::Comment {
                 return lead;
             }
-            lead.push(Lead::Comment(self.take().text.to_owned()));
+            lead.push(Lead::Comment { text: self.take().text.to_owned(), line: token.line });
         }
     }
 

@@ -96,9 +96,9 @@ impl BuiltIn {
         let of = first.component();
         let fits = match (self.name, self.gives) {
             ("transpose", _) => is_matrix,
-            (_, Gives::Bool) => of == Some(Scalar::Bool),
-            ("abs" | "clamp" | "max" | "min", _) => of.is_some_and(|of| of != Scalar::Bool),
-            ("sign", _) => of == Some(Scalar::F32) || of == Some(Scalar::I32),
+            (_, Gives::Bool) => matches!(first, Type::Vector(_, Scalar::Bool)),
+            ("abs", _) => of == Some(Scalar::F32) || of == Some(Scalar::I32),
+            ("clamp" | "max" | "min", _) => of.is_some_and(|of| of != Scalar::Bool),
             ("cross", _) => first == &Type::Vector(3, Scalar::F32),
             _ => of == Some(Scalar::F32),
         };
@@ -123,6 +123,9 @@ mod tests {
         assert_eq!(result("mix", &[vector.clone(), vector.clone(), F32]), Ok(vector.clone()));
         assert_eq!(result("dot", &[vector.clone(), vector.clone()]), Ok(F32));
         assert!(result("max", &[vector.clone(), F32]).is_err());
+        assert!(result("all", &[BOOL]).is_err() && result("all", &[Type::Vector(2, Scalar::Bool)]).is_ok());
+        assert!(result("sign", &[Type::Scalar(Scalar::I32)]).is_err());
+        assert!(result("abs", &[Type::Scalar(Scalar::U32)]).is_err());
         assert!(result("sqrt", &[Type::Scalar(Scalar::U32)]).is_err());
         assert!(result("sqrt", &[F32, F32]).is_err());
         assert!(built_in("textureSample").is_none());

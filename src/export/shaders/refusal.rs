@@ -17,4 +17,14 @@ impl Refusal {
     pub(super) fn new(line: usize, problem: impl Into<String>) -> Self {
         Self { line, problem: problem.into() }
     }
+
+    /// The same at another line: that of the text out of which it was read.
+    pub(super) fn at(self, line: usize) -> Self {
+        Self { line, ..self }
+    }
+
+    /// The same of a text that the file stands on.
+    pub(super) fn of_another(self) -> Self {
+        Self { problem: format!("of a text before it: {}", self.problem), ..self }
+    }
 }

@@ -63,7 +63,39 @@ pub(super) fn check(name: &str, line: usize) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// Names of types and functions with digits or capitals, of those that translations use.
+const WITH_DIGITS_OR_CAPITALS: &str = "
+    atan2 exp2 log2 inverseSqrt texelFetch textureSize textureLoad textureDimensions floatBitsToInt floatBitsToUint
+    intBitsToFloat uintBitsToFloat lessThan lessThanEqual greaterThan greaterThanEqual notEqual sampler2D texture2D
+    texture2d Texture2D f32 i32 u32";
+
 /// Whether a name is such a word, in any of the languages: files are carried over to all of them.
 pub fn is_reserved(name: &str) -> bool {
-    [GLSL, HLSL, MSL].into_iter().flat_map(str::split_whitespace).any(|word| word == name)
+    let words = [GLSL, HLSL, MSL, WITH_DIGITS_OR_CAPITALS].into_iter().flat_map(str::split_whitespace);
+    words.into_iter().any(|word| word == name) || is_sized(name)
+}
+
+/// Whether it is a vector's or a matrix's type: a word, a digit, and perhaps another one behind an x.
+fn is_sized(name: &str) -> bool {
+    const WORDS: [&str; 14] = [
+        "vec",
+        "bvec",
+        "ivec",
+        "uvec",
+        "dvec",
+        "mat",
+        "dmat",
+        "bool",
+        "int",
+        "uint",
+        "float",
+        "half",
+        "double",
+        "min16float",
+    ];
+    let is_size = |text: &str| matches!(text, "1" | "2" | "3" | "4");
+    WORDS.iter().filter_map(|word| name.strip_prefix(word)).any(|sizes| match sizes.split_once('x') {
+        Some((columns, rows)) => is_size(columns) && is_size(rows.trim_end_matches(['f', 'h'])),
+        None => is_size(sizes.trim_end_matches(['f', 'h', 'i', 'u'])),
+    })
 }

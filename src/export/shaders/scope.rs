@@ -128,15 +128,25 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Of a literal. Those without a suffix are f32 with a point or an exponent, and i32 without.
+/// Of a literal: digits with a point or an exponent are f32, digits alone i32, with a u behind them u32; these may be hexadecimal.
 fn number(text: &str) -> Result<Type, String> {
-    let is_hex = text.starts_with("0x");
-    if text.ends_with('u') {
+    let whole = |digits: &str| match digits.strip_prefix("0x") {
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => digits.parse().ok().filter(|_| digits.bytes().all(|digit| digit.is_ascii_digit())),
+    };
+    let is_float = || {
+        let (digits, exponent) = text.split_once('e').unwrap_or((text, "0"));
+        let (before, after) = digits.split_once('.').unwrap_or((digits, "0"));
+        let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+        let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit());
+        text.contains(['.', 'e']) && [before, after, exponent].into_iter().all(are_digits)
+    };
+    if text.strip_suffix('u').is_some_and(|digits| whole(digits).is_some()) {
         Ok(U32)
-    } else if !is_hex && text.contains(['.', 'e']) && text.ends_with(|last: char| last.is_ascii_digit()) {
-        Ok(F32)
-    } else if text.ends_with(|last: char| last.is_ascii_digit()) {
+    } else if whole(text).is_some_and(|number| i32::try_from(number).is_ok()) {
         Ok(I32)
+    } else if is_float() {
+        Ok(F32)
     } else {
         Err(format!("the literal {text}"))
     }

@@ -57,7 +57,12 @@ impl Speller<'_> {
             Form::Bool(is) => is.to_string(),
             Form::Name(name) => name.clone(),
             Form::Parentheses(inner) => format!("({})", self.inside(inner)?),
-            Form::Unary { operator, value } => format!("{operator}{}", self.operand(value)?),
+            Form::Unary { operator, value } => {
+                let value = self.operand(value)?;
+                // Two of them take one away.
+                let space = if operator == "-" && value.starts_with('-') { " " } else { "" };
+                format!("{operator}{space}{value}")
+            }
             Form::Binary { .. } => self.binary(expression)?,
             Form::Call { name, arguments } if name.word == "select" => {
                 self.scope.type_of(expression)?;
@@ -144,9 +149,14 @@ impl Speller<'_> {
         match word {
             _ if is_ours => self.with_arguments(word, arguments),
             "bitcast" => self.bitcast(&kind, arguments),
-            "textureDimensions" => self.dimensions(&arguments[0]),
-            "textureLoad" => self.load(whole, arguments),
+            "textureDimensions" => self.dimensions(arguments),
+            "textureLoad" => self.load(arguments),
             "transpose" if self.language == Language::Hlsl => self.transpose(arguments),
+            // An int in HLSL.
+            "sign" if self.language == Language::Hlsl => {
+                let value = self.with_arguments("sign", arguments)?.text;
+                Ok(tight(format!("{}({value})", self.language.type_name(&kind))))
+            }
             _ => match built_in(word) {
                 Some(function) => {
                     let name = match self.language {
@@ -206,7 +216,7 @@ impl Speller<'_> {
     fn transpose(&self, arguments: &[Expression]) -> Result<Written, Refusal> {
         let [matrix] = arguments else { unreachable!("its type has been found") };
         if let Form::Call { name, arguments: columns } = &matrix.what
-            && name.word.starts_with("mat")
+            && name.is_constructor()
             && let Ok(kind @ Type::Matrix(size)) = self.scope.type_of(matrix)
             && columns.len() == size
         {
@@ -241,7 +251,9 @@ impl Speller<'_> {
         self.with_arguments(&name, arguments)
     }
 
-    fn dimensions(&self, texture: &Expression) -> Result<Written, Refusal> {
+    fn dimensions(&self, arguments: &[Expression]) -> Result<Written, Refusal> {
+        let [texture, level] = arguments else { unreachable!("its type has been found") };
+        check_level(level)?;
         let texture = self.write(texture)?.text;
         Ok(tight(match self.language {
             Language::GlslEs300 | Language::Glsl450 => format!("uvec2(textureSize({texture}, 0))"),
@@ -250,11 +262,9 @@ impl Speller<'_> {
         }))
     }
 
-    fn load(&self, whole: &Expression, arguments: &[Expression]) -> Result<Written, Refusal> {
+    fn load(&self, arguments: &[Expression]) -> Result<Written, Refusal> {
         let [texture, at, level] = arguments else { unreachable!("its type has been found") };
-        if !matches!(&level.what, Form::Number(text) if text.trim_end_matches('u') == "0") {
-            return Err(Refusal::new(whole.line, "a level other than 0"));
-        }
+        check_level(level)?;
         let texture = self.write(texture)?.text;
         // Components go into the vector that the language wants.
         let parts = match &at.what {
@@ -296,6 +306,14 @@ impl Speller<'_> {
         // HLSL's m[k] is a row.
         let is_by_rows = is_matrix && self.language == Language::Hlsl;
         Ok(if is_by_rows { format!("transpose({of})[{index}]") } else { format!("{of}[{index}]") })
+    }
+}
+
+/// Tables have one level.
+fn check_level(level: &Expression) -> Result<(), Refusal> {
+    match &level.what {
+        Form::Number(text) if text.trim_end_matches('u') == "0" => Ok(()),
+        _ => Err(Refusal::new(level.line, "a level other than 0")),
     }
 }
 

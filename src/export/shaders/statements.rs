@@ -7,7 +7,7 @@ use super::scope::Scope;
 use super::spelling::{dimensions_name, spell, spell_after};
 use super::syntax::{Block, Expression, Form, Lead, Noted, Otherwise, Statement, TypeName};
 use super::types::{BOOL, Scalar, Type};
-use super::walk::{each, own};
+use super::walk::{each, heads};
 
 /// How much deeper a block stands.
 const INDENT: usize = 4;
@@ -17,7 +17,7 @@ pub(super) fn lead(lead: &[Lead], indent: usize, language: Language) -> String {
     lead.iter()
         .map(|line| match line {
             Lead::Blank => "\n".to_owned(),
-            Lead::Comment(text) => format!("{:indent$}{}\n", "", comment(text, language)),
+            Lead::Comment { text, .. } => format!("{:indent$}{}\n", "", comment(text, language)),
         })
         .collect()
 }
@@ -66,7 +66,7 @@ impl<'a> Statements<'a> {
     /// Statements that ask for the sizes of textures, where that is no expression.
     fn dimensions(&mut self, statement: &Noted<Statement>) -> Result<Vec<String>, Refusal> {
         let mut textures: Vec<&Expression> = Vec::new();
-        for expression in own(&statement.what) {
+        for expression in heads(&statement.what) {
             each(expression, &mut |inner| match &inner.what {
                 Form::Call { name, arguments } if name.word == "textureDimensions" => {
                     textures.extend(arguments.first())
@@ -153,8 +153,11 @@ impl<'a> Statements<'a> {
             Statement::Local { name, kind, value } => self.local(name, kind.as_ref(), value.as_ref(), line),
             Statement::Assign { place, operator, value } => {
                 let (place_type, value_type) = (self.scope.type_of(place)?, self.scope.type_of(value)?);
-                let is_scaled = ["*=", "/="].contains(&operator.as_str())
-                    && value_type == Type::Scalar(place_type.component().unwrap_or(Scalar::Bool));
+                let is_product = ["*=", "/="].contains(&operator.as_str());
+                let is_scaled = is_product && place_type.component().is_some_and(|of| value_type == Type::Scalar(of));
+                if is_product && matches!(value_type, Type::Matrix(_)) {
+                    return Err(Refusal::new(line, "a product of matrices in place: HLSL's goes by component"));
+                }
                 if place_type != value_type && !is_scaled {
                     return Err(Refusal::new(line, "a value of another type than its place"));
                 }
@@ -175,18 +178,18 @@ impl<'a> Statements<'a> {
 
     /// A column of a matrix is no place in HLSL.
     fn check_place(&self, place: &Expression) -> Result<(), Refusal> {
-        let mut of_matrix = None;
+        let mut indexed = Vec::new();
         each(place, &mut |inner| {
             if let Form::Index { of, .. } = &inner.what {
-                of_matrix = of_matrix.or(Some(of));
+                indexed.push(of);
             }
         });
-        match of_matrix {
-            Some(of) if matches!(self.scope.type_of(of)?, Type::Matrix(_)) => {
-                Err(Refusal::new(place.line, "a value for a part of a matrix"))
+        for of in indexed {
+            if matches!(self.scope.type_of(of)?, Type::Matrix(_)) {
+                return Err(Refusal::new(place.line, "a value for a part of a matrix"));
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 
     fn local(

@@ -12,8 +12,11 @@ pub(super) struct TypeName {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Lead {
     Blank,
-    /// With its slashes.
-    Comment(String),
+    /// With its slashes, on a line counted from 1.
+    Comment {
+        text: String,
+        line: usize,
+    },
 }
 
 /// A declaration or statement with its comments: those before it and the one at the end of its (first) line.

@@ -16,33 +16,35 @@ const EXAMPLE: &str = "// Example: ";
 ///
 /// `known` are WGSL sources whose declarations the file stands on, in an order in which each stands on those before it.
 /// `given` declares what the example in the header takes for granted: the head of a function, to its opening brace, and
-/// statements. Fails where the file is not within what is translated faithfully.
+/// statements. Fails where the file is not within what is translated faithfully; what is, is assumed to turn no floats into integers
+/// that these cannot hold: WGSL clamps them, and the others need not.
 pub fn translate(text: &str, given: &str, known: &[&str], language: Language) -> Result<String, Refusal> {
     let mut declarations = Declarations::default();
     for source in known {
-        declare(&parse(source)?, &mut declarations)?;
+        let declared = parse(source).and_then(|file| declare(&file, &mut declarations));
+        declared.map_err(Refusal::of_another)?;
     }
     let mut file = parse(text)?;
     declare(&file, &mut declarations)?;
-    let Some(first) = file.items.first_mut() else { return Ok(String::new()) };
-    let header = split_header(first);
+    let header = file.items.first_mut().map(split_header).unwrap_or_default();
     let mut written = String::new();
-    for line in header {
-        written += &match line.strip_prefix(EXAMPLE) {
-            Some(example) => {
-                format!("{EXAMPLE}{}\n", translate_example(example, given, declarations.clone(), language)?)
+    for comment in header {
+        written += &match &comment {
+            Lead::Comment { text, line } if text.starts_with(EXAMPLE) => {
+                let example = &text[EXAMPLE.len()..];
+                let example = translate_example(example, given, declarations.clone(), language);
+                format!("{EXAMPLE}{}\n", example.map_err(|refusal| refusal.at(*line))?)
             }
-            None => lead(&[Lead::Comment(line)], 0, language),
+            _ => lead(&[comment], 0, language),
         };
     }
     Ok(written + language.notes() + language.preamble() + &write(&file, language, &declarations)?)
 }
 
 /// The comments at the top of the file, up to the first empty line, which stays with the item.
-fn split_header(first: &mut Noted<Item>) -> Vec<String> {
-    let length = first.lead.iter().take_while(|line| matches!(line, Lead::Comment(_))).count();
-    let lines = first.lead.drain(..length);
-    lines.filter_map(|line| if let Lead::Comment(text) = line { Some(text) } else { None }).collect()
+fn split_header(first: &mut Noted<Item>) -> Vec<Lead> {
+    let length = first.lead.iter().take_while(|line| matches!(line, Lead::Comment { .. })).count();
+    first.lead.drain(..length).collect()
 }
 
 /// Enters what a file declares.

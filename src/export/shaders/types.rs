@@ -30,6 +30,13 @@ pub(super) const F32: Type = Type::Scalar(Scalar::F32);
 pub(super) const I32: Type = Type::Scalar(Scalar::I32);
 pub(super) const U32: Type = Type::Scalar(Scalar::U32);
 
+impl TypeName {
+    /// Whether a call of this name makes a number, vector or matrix.
+    pub fn is_constructor(&self) -> bool {
+        Type::built_in(self).is_some() || generic(&self.word).is_some()
+    }
+}
+
 impl Type {
     /// The type that a name stands for where it is one of the language's own.
     pub fn built_in(name: &TypeName) -> Option<Self> {

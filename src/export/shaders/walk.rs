@@ -1,7 +1,6 @@
 //! Looking through what a file is made of.
 
 use super::syntax::{Block, Expression, Form, Otherwise, Statement};
-use super::types::{Type, generic};
 
 /// Calls `see` with an expression and all in it.
 pub(super) fn each<'a>(expression: &'a Expression, see: &mut dyn FnMut(&'a Expression)) {
@@ -18,7 +17,7 @@ pub(super) fn each<'a>(expression: &'a Expression, see: &mut dyn FnMut(&'a Expre
 }
 
 /// The expressions of a statement itself, not of the blocks in it.
-pub(super) fn own(statement: &Statement) -> Vec<&Expression> {
+fn own(statement: &Statement) -> Vec<&Expression> {
     match statement {
         Statement::Local { value, .. } | Statement::Return(value) => value.iter().collect(),
         Statement::Assign { place, value, .. } => vec![place, value],
@@ -32,14 +31,28 @@ pub(super) fn own(statement: &Statement) -> Vec<&Expression> {
     }
 }
 
-/// Whether a value is more than numbers, and vectors and matrices of them.
+/// The same, and the conditions of each `else if`.
+pub(super) fn heads(statement: &Statement) -> Vec<&Expression> {
+    let mut found = own(statement);
+    if let Statement::If { otherwise: Some(otherwise), .. } = statement
+        && let Otherwise::If(next) = &**otherwise
+    {
+        found.extend(heads(next));
+    }
+    found
+}
+
+/// Whether a value is made by functions.
 pub(super) fn calls_function(value: &Expression) -> bool {
     let mut found = false;
-    each(value, &mut |inner| {
-        if let Form::Call { name, .. } = &inner.what {
-            found |= Type::built_in(name).is_none() && generic(&name.word).is_none();
-        }
-    });
+    each(value, &mut |inner| found |= matches!(&inner.what, Form::Call { name, .. } if !name.is_constructor()));
+    found
+}
+
+/// Whether a value is made by operators of two values.
+pub(super) fn calculates(value: &Expression) -> bool {
+    let mut found = false;
+    each(value, &mut |inner| found |= matches!(inner.what, Form::Binary { .. }));
     found
 }
 

@@ -10,7 +10,7 @@ use super::spelling::{separator, spell};
 use super::statements::{self, Statements};
 use super::syntax::{Expression, Function, Item, Lead, Noted, TypeName, Typed};
 use super::types::Type;
-use super::walk::{calls, calls_function};
+use super::walk::{calculates, calls, calls_function};
 
 /// Writes a file whose names, and those of the files that it is copied with, are declared.
 pub(super) fn write(file: &File, language: Language, declarations: &Declarations) -> Result<String, Refusal> {
@@ -52,13 +52,12 @@ impl Writer<'_> {
     fn top_lead(&self, lead: &[Lead]) -> Result<String, Refusal> {
         let mut text = String::new();
         for line in lead {
-            let head = match line {
-                Lead::Comment(comment) => comment.strip_prefix(HEAD_IN_COMMENT),
-                Lead::Blank => None,
-            };
-            text += &match head {
-                Some(head) => format!("//     {};\n", self.head(&parse_head(head)?, 0)?),
-                None => self.lead(std::slice::from_ref(line), 0),
+            text += &match line {
+                Lead::Comment { text: comment, line: at } if comment.starts_with(HEAD_IN_COMMENT) => {
+                    let head = parse_head(&comment[HEAD_IN_COMMENT.len()..]).map_err(|refusal| refusal.at(*at))?;
+                    format!("//     {};\n", self.head(&head, *at)?)
+                }
+                _ => self.lead(std::slice::from_ref(line), 0),
             };
         }
         Ok(text)
@@ -80,6 +79,9 @@ impl Writer<'_> {
         let found = scope.type_of(value)?;
         if calls_function(value) {
             return Err(Refusal::new(item.line, "a constant that a function makes, which Metal does not know"));
+        }
+        if calculates(value) && !matches!(found, Type::Scalar(_)) {
+            return Err(Refusal::new(item.line, "a constant that is calculated from vectors or matrices"));
         }
         if kind.is_some_and(|kind| self.declarations.type_of(kind, item.line).is_ok_and(|kind| kind != found)) {
             return Err(Refusal::new(item.line, format!("{name} has a value of another type")));
