@@ -5,7 +5,7 @@
 // Frame: z = normal, x = view projected on the surface, as ltc_frame makes it; mu = dot(normal, view).
 // Example: let lobe = sheen_lobe(table, alpha, mu); let radiance = light * sheen_color * lobe.albedo * form_factor;
 // Ranges: alpha, mu and sheen_color in [0,1], alpha and mu clamped; a >= 0, where a = 0 the matrix is singular and lights nothing.
-// Greatest error: 3e-6 for 32 x 32 nodes, against f64, where neighbours differ by 2; a sampler's 8-bit weights err by 1e-3 of it.
+// Greatest error: 3e-6 for 32 x 32 nodes, against f64, where neighbours differ by 2; a sampler's 8-bit weights err by up to 4e-3 of such a difference.
 
 struct SheenLobe {
     m_inv: mat3x3<f32>,  // rows (a,0,b), (0,a,0), (0,0,1)

@@ -5,7 +5,7 @@
 // Frame: z = normal, x = view projected on the surface, as ltc_frame makes it; mu = dot(normal, view).
 // Example: SheenLobe lobe = sheen_lobe(table, alpha, mu); float3 radiance = light * sheen_color * lobe.albedo * form_factor;
 // Ranges: alpha, mu and sheen_color in [0,1], alpha and mu clamped; a >= 0, where a = 0 the matrix is singular and lights nothing.
-// Greatest error: 3e-6 for 32 x 32 nodes, against f64, where neighbours differ by 2; a sampler's 8-bit weights err by 1e-3 of it.
+// Greatest error: 3e-6 for 32 x 32 nodes, against f64, where neighbours differ by 2; a sampler's 8-bit weights err by up to 4e-3 of such a difference.
 // Language: Metal 1.1 and later. Half floats are not enough.
 
 #include <metal_stdlib>

@@ -4,11 +4,11 @@ use std::process::Command;
 
 use velour::export::shaders::{Language, SOURCES, spirv as library};
 
-use super::compilers::{compiles, folder, run, spirv, validate};
+use super::compilers::{compiles, folder, metal, run, spirv, validate};
 use super::device::run as run_on_device;
 use super::golden::{Rows, assert_right};
 use super::shells;
-use super::theirs::theirs;
+use super::theirs::{by_buffers, theirs};
 
 fn glsl() -> String {
     let (before, after) = (include_str!("shells/before.glsl"), include_str!("shells/after.glsl"));
@@ -59,6 +59,30 @@ fn every_file_compiles_in_glsl_es() {
     let compile = |source: &str| compiles(&path, "shader.frag", source, glslang);
     each_and_all(Language::GlslEs300, |files| compile(&format!("{head}{files}\nvoid main() {{}}\n")));
     assert!(compile(&format!("{head}float f() {{ return 1u; }}\nvoid main() {{}}\n")).is_err(), "it tells errors");
+}
+
+/// The loop over lights behind the examples' own reading of lights.
+#[test]
+fn the_examples_buffers_are_what_the_loop_asks_for() {
+    let (_folder, path) = folder();
+    let files = |language| {
+        let shipped = |stem: &str| SOURCES.iter().find(|source| source.stem == stem)?.in_language(language).ok();
+        let [ltc, sheen, ggx, lights] =
+            ["ltc", "sheen", "ggx", "lights"].map(|stem| shipped(stem).expect("it is shipped"));
+        format!("{ltc}{sheen}{ggx}{}{lights}", by_buffers(language))
+    };
+    let head = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+    let es = format!("{head}{}\nvoid main() {{}}\n", files(Language::GlslEs300));
+    compiles(&path, "shader.frag", &es, glslang).unwrap_or_else(|said| panic!("{said}"));
+    let hlsl = format!("{}\nfloat4 main() : SV_Target {{ return (float4)0.0; }}\n", files(Language::Hlsl));
+    let compiled = compiles(&path, "shader.frag", &hlsl, |path| {
+        let mut compiler = glslang(path);
+        compiler.args(["-D", "-V", "-e", "main", "--auto-map-bindings", "-o"]).arg(path.with_extension("spv"));
+        compiler
+    });
+    compiled.unwrap_or_else(|said| panic!("{said}"));
+    compiles(&path, "shader.metal", &files(Language::Msl), |path| metal(path, &["-fsyntax-only"]))
+        .unwrap_or_else(|said| panic!("{said}"));
 }
 
 /// The GLSL with samplers serves desktops too.
