@@ -13,6 +13,9 @@ fn scatter(sheen: &LtcSheen, [c_sheen, base]: [DVec3; 2], wi: DVec3, random: &mu
     // glTF's layering: what the strongest channel of the sheen sends back no longer reaches the base.
     let strongest = c_sheen.max_element() * sheen.albedo(wi.z);
     let through = base * (1.0 - strongest);
+    if strongest + through.max_element() <= 0.0 {
+        return None;
+    }
     // Either lobe is sampled by the share of light that it sends back; both together are the density.
     let share = strongest / (strongest + through.max_element());
     let uniforms = [random.random(), random.random()];

@@ -4,7 +4,6 @@
 import { NeutralToneMapping, Vector3, WebGLRenderer } from 'three';
 import { WebGPURenderer } from 'three/webgpu';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUniformsLib.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { GUI } from 'three/addons/libs/lil-gui.module.min.js';
 import { lightsOfGlowing } from './glowing.js';
@@ -15,8 +14,6 @@ const isWebGPU = !query.has('webgl') && Boolean(await navigator.gpu?.requestAdap
 const { areaSheen } = await import(isWebGPU ? './area_sheen.js' : './area_sheen_webgl.js');
 const renderer = isWebGPU ? new WebGPURenderer({ antialias: true }) : new WebGLRenderer({ antialias: true });
 if (isWebGPU) await renderer.init();
-// three's own area lights read these.
-else RectAreaLightUniformsLib.init();
 renderer.toneMapping = NeutralToneMapping;
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 document.body.prepend(renderer.domElement);

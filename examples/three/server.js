@@ -4,19 +4,20 @@
 
 import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
-import { extname, join } from 'node:path';
+import { extname, join, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
-const SERVED = ['/examples/', '/shaders/', '/tables/', '/assets/'];
+const SERVED = ['examples', 'shaders', 'tables', 'assets'].map((folder) => join(ROOT, folder) + sep);
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json' };
 
 async function answer(request, response) {
-    const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
     try {
-        if (!SERVED.some((folder) => path.startsWith(folder))) throw new Error('not served');
-        const file = path.endsWith('/') ? `${path}index.html` : path;
-        const bytes = await readFile(join(ROOT, file));
+        const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+        // Joined first: dots may lead out of a folder.
+        const file = join(ROOT, path.endsWith('/') ? `${path}index.html` : path);
+        if (!SERVED.some((folder) => file.startsWith(folder))) throw new Error('not served');
+        const bytes = await readFile(file);
         const type = TYPES[extname(file)] ?? 'application/octet-stream';
         response.writeHead(200, { 'content-type': `${type}; charset=utf-8`, 'cache-control': 'no-cache' }).end(bytes);
     } catch {

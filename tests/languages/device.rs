@@ -80,8 +80,9 @@ async fn open() -> (wgpu::Device, wgpu::Queue) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::VULKAN;
     let adapters = wgpu::Instance::new(descriptor).enumerate_adapters(wgpu::Backends::VULKAN).await;
-    let adapter = adapters.first().expect("these tests need a Vulkan device");
     let required_features = Features::PASSTHROUGH_SHADERS;
+    let takes_spirv = |adapter: &&wgpu::Adapter| adapter.features().contains(required_features);
+    let adapter = adapters.iter().find(takes_spirv).expect("these tests need a Vulkan device");
     // SAFETY: what is experimental is handing shaders on unseen, which is what these tests are for.
     let experimental_features = unsafe { wgpu::ExperimentalFeatures::enabled() };
     let descriptor = wgpu::DeviceDescriptor { required_features, experimental_features, ..Default::default() };

@@ -23,7 +23,7 @@ pub fn source(name: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-fn compile(source: &str) -> Result<naga::Module, String> {
+pub fn compile(source: &str) -> Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
     let (flags, capabilities) = (naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     let validated = naga::valid::Validator::new(flags, capabilities).validate(&module);

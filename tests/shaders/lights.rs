@@ -1,5 +1,9 @@
 //! The loop over lights that people copy, on a picture: a ball on a floor under lights of several shapes, against the sum of exact form factors.
 
+// The mistakes of docs/integration.md, which an example draws.
+#[path = "../../examples/mistakes/planted.rs"]
+mod planted;
+
 use crate::{device, files};
 use glam::{DMat3, DVec3};
 use velour::models::Schlick;
@@ -172,5 +176,16 @@ fn four_corners_need_no_loop_and_a_winding_tells_the_normal() {
         assert!(apart < 1e-6, "{apart}");
         // 2 x 2, facing down.
         assert_eq!([x, y, z], [0.0, -4.0, 0.0]);
+    }
+}
+
+#[test]
+fn the_mistakes_that_an_example_draws_can_be_made() {
+    let names: Vec<&str> = planted::MISTAKES.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, velour::export::golden::Mistake::ALL.map(velour::export::golden::Mistake::name));
+    for (name, edits) in planted::MISTAKES {
+        let source = planted::source(edits);
+        assert_ne!(source, planted::source(&[]), "{name}");
+        files::compile(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
     }
 }

@@ -4,7 +4,6 @@
 import { FloatType, NoToneMapping, WebGLRenderTarget, WebGLRenderer } from 'three';
 import { RenderTarget, WebGPURenderer } from 'three/webgpu';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUniformsLib.js';
 import { lightsOfGlowing } from '../glowing.js';
 
 const isWebGL = location.search === '?webgl';

@@ -11,7 +11,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use bevy::asset::RenderAssetUsages;
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 use image::{ImageBuffer, Rgb};
@@ -129,7 +128,6 @@ fn bevy_draws_what_velour_renders() {
 fn a_wrong_sign_in_the_table_is_found_out() {
     let picture = drawn("wrong_sign", |sheen, images| {
         let mut wrong = table(include_bytes!("../../../../tables/sheen_ltc.dds"));
-        wrong.asset_usage = RenderAssetUsages::RENDER_WORLD;
         // b is the second half of a texel's four; its sign is the top bit.
         wrong.data.iter_mut().flatten().skip(3).step_by(8).for_each(|byte| *byte ^= 0x80);
         sheen.sheen_table = images.add(wrong);
