@@ -53,9 +53,7 @@ impl Golden {
         }
         Self { functions, rows }
     }
-}
 
-impl Golden {
     /// The row with this id.
     pub fn row(&self, id: u32) -> Option<&Row> {
         self.rows.binary_search_by_key(&id, |row| row.id).ok().map(|index| &self.rows[index])
