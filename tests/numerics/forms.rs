@@ -225,7 +225,7 @@ fn built(texture: &Texture, form: Form, program: &str, compiler: &Compiler) -> V
 #[test]
 fn c_compiles() {
     check(Form::C, Precision::Single, |texture, _| {
-        let (name, upper) = (texture.stem, texture.stem.to_uppercase());
+        let (name, upper) = (&texture.stem, texture.stem.to_uppercase());
         let program = format!(
             "#include <stdio.h>\n#include \"{name}.h\"\n#include \"{name}.h\"\nint main(void) {{\n\
              int size[2] = {{ {upper}_WIDTH, {upper}_HEIGHT }};\nfwrite(size, sizeof size, 1, stdout);\n\
@@ -240,7 +240,7 @@ fn c_compiles() {
 #[test]
 fn rust_compiles() {
     check(Form::Rust, Precision::Single, |texture, _| {
-        let (name, upper) = (texture.stem, texture.stem.to_uppercase());
+        let (name, upper) = (&texture.stem, texture.stem.to_uppercase());
         let program = format!(
             "mod {name};\nuse std::io::Write;\nuse {name}::{upper};\nfn main() {{\n\
              let mut out = vec![{upper}[0].len() as u8, {upper}.len() as u8];\n\
@@ -256,7 +256,7 @@ fn rust_compiles() {
 fn glsl_compiles_and_packs_halves_as_unpack_half_2x16_takes_them() {
     use naga::{Expression, Handle, Literal};
     check(Form::Glsl, Precision::Half, |texture, bytes| {
-        let (text, name) = (std::str::from_utf8(bytes).unwrap(), texture.stem);
+        let (text, name) = (std::str::from_utf8(bytes).unwrap(), &texture.stem);
         let main = format!("layout(location = 0) out vec4 o;\nvoid main() {{ o = {name}_texel(3, 1); }}\n");
         let options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
         let module = naga::front::glsl::Frontend::default().parse(&options, &format!("#version 450\n{text}{main}"));
