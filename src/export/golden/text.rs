@@ -10,9 +10,10 @@ use std::collections::BTreeMap;
 const ABOUT: [&str; 14] = [
     "SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD",
     "SPDX-FileCopyrightText: 2026 The Velour authors",
-    "Golden numbers: what every function of shaders/{ltc,ltc_sample,sheen,ggx}.wgsl gives for some inputs, to check a port by.",
-    "Inputs are exact 32-bit floats. Outputs are computed in 64 bits from the halves in tables/*.dds, by definitions that share no step with \
-     the shaders.",
+    "Golden numbers: what every function of shaders/{ltc,ltc_sample,sheen,sheen_fit,ggx}.wgsl gives for some inputs, to check a port by.",
+    "Inputs are exact 32-bit floats. Outputs are computed in 64 bits from the halves in tables/*.dds: form factors of the whole by a clipped \
+     polygon, lookups by the library, angles and matrices by arctangents, inverses and determinants, independently of the shaders. Where a \
+     definition is a formula (ltc_next's crossing, the closing angle, weights of layers, sheen_fit's polynomials) it is the shaders' own, in 64 bits.",
     "Numbers: structs are their fields in order of declaration, vectors x y z, matrices column by column, bools 0 or 1. Textures are left \
      out: they are the shipped tables.",
     "lights_factors is the whole: frame, lookups and one walk around a light of n corners (counter-clockwise as seen from the lit side), for \
@@ -114,7 +115,12 @@ fn line(value: &impl Serialize) -> String {
 }
 
 fn rounded(numbers: &[f64]) -> Vec<f64> {
-    numbers.iter().map(|number| to_digits(*number, DIGITS)).collect()
+    numbers.iter().map(|number| to_decimals(to_digits(*number, DIGITS))).collect()
+}
+
+/// Without what is too small: not all readers of JSON get digits past the 22nd right.
+fn to_decimals(number: f64) -> f64 {
+    format!("{number:.22}").parse::<f64>().expect("a number that was written is one") + 0.0
 }
 
 /// Rounded to so many digits; without a negative zero.
