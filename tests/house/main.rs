@@ -8,6 +8,7 @@ mod lengths;
 mod licences;
 mod machine;
 mod passes;
+mod versions;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The files under a folder whose names end so, in order; but for those that an example's own build has put there.
+/// The files under a folder whose names end so, in order; but for those that builds and npm have put there.
 pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
@@ -29,10 +30,7 @@ pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
             continue;
         }
         if path.is_dir() {
-            // What npm installs is no part of the project.
-            if path.file_name().is_none_or(|name| name != "node_modules") {
-                found.extend(files(&path, extension));
-            }
+            found.extend(files(&path, extension));
         } else if path.extension().is_some_and(|own| own == extension) {
             found.push(path);
         }

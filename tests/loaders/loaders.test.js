@@ -28,6 +28,7 @@ let folder;
 before(() => {
     folder = mkdtempSync(join(tmpdir(), 'velour-'));
     execFileSync(program, ['export', 'tables', '-o', folder]);
+    execFileSync(program, ['export', 'tables', '-o', folder, '--only', 'sheen', '--format', 'ktx2', '--size', '16']);
 });
 after(() => rmSync(folder, { recursive: true }));
 
@@ -90,6 +91,13 @@ test('three: KTX2Loader opens the .ktx2 without a transcoder', async () => {
         assert.equal(texture.minFilter, THREE.NearestFilter);
         check(texture.image.data, stem);
     }
+});
+
+test('three: KTX2Loader opens a small table by its own name', async () => {
+    const loader = new KTX2Loader();
+    loader.workerConfig = {};
+    const { image } = await new Promise((done, fail) => loader.parse(buffer('sheen_ltc_16.ktx2'), done, fail));
+    assert.deepEqual([image.width, image.height, image.data.length], [16, 16, 16 * 16 * 4]);
 });
 
 test('three: the module of JavaScript is what DataTexture takes', async () => {

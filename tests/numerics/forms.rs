@@ -1,7 +1,7 @@
 //! The tables in other forms, read back by what knows nothing of how they were written.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 
 use half::f16;
 use velour::export::tables::{Difference, Form, Texture, resample, resampled};
@@ -180,13 +180,44 @@ fn js_is_an_object_of_halves() {
     });
 }
 
+/// A compiler, with the variable that names another one, and its flags.
+struct Compiler {
+    name: &'static str,
+    variable: &'static str,
+    flags: &'static [&'static str],
+}
+
+const C: Compiler = Compiler { name: "cc", variable: "CC", flags: &["-std=c89", "-pedantic", "-Wall", "-Werror"] };
+const RUST: Compiler = Compiler { name: "rustc", variable: "RUSTC", flags: &["--edition=2021", "-Dwarnings"] };
+
+impl Compiler {
+    fn command(&self) -> Command {
+        Command::new(std::env::var_os(self.variable).unwrap_or_else(|| self.name.into()))
+    }
+
+    /// Compiles a file to `program`, in its folder.
+    fn compile(&self, mut command: Command, folder: &Path, source: &Path) -> Output {
+        let run = command.args(self.flags).args(["-o", "program"]).arg(source).current_dir(folder).output();
+        run.unwrap_or_else(|error| {
+            let (program, variable) = (command.get_program().display(), self.variable);
+            panic!("the compiler '{program}' does not start ({error}): install it, or name another in {variable}")
+        })
+    }
+}
+
+#[test]
+#[should_panic(expected = "the compiler 'no-such-compiler' does not start")]
+fn a_compiler_that_is_not_there_is_named() {
+    C.compile(Command::new("no-such-compiler"), Path::new("."), Path::new("program.c"));
+}
+
 /// Compiles a program that stands beside a file, runs it, and takes what it writes.
-fn built(texture: &Texture, form: Form, program: &str, compiler: &[&str]) -> Vec<u8> {
+fn built(texture: &Texture, form: Form, program: &str, compiler: &Compiler) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(texture.name(form)), texture.file(form)).unwrap();
     let source = Path::new("program").with_extension(if form == Form::C { "c" } else { "rs" });
     std::fs::write(folder.path().join(&source), program).unwrap();
-    let built = Command::new(compiler[0]).args(&compiler[1..]).arg(source).current_dir(&folder).output().unwrap();
+    let built = compiler.compile(compiler.command(), folder.path(), &source);
     assert!(built.status.success(), "{}: {}", texture.name(form), String::from_utf8_lossy(&built.stderr));
     Command::new(folder.path().join("program")).output().unwrap().stdout
 }
@@ -194,14 +225,13 @@ fn built(texture: &Texture, form: Form, program: &str, compiler: &[&str]) -> Vec
 #[test]
 fn c_compiles() {
     check(Form::C, Precision::Single, |texture, _| {
-        let (name, upper) = (texture.stem, texture.stem.to_uppercase());
+        let (name, upper) = (&texture.stem, texture.stem.to_uppercase());
         let program = format!(
             "#include <stdio.h>\n#include \"{name}.h\"\n#include \"{name}.h\"\nint main(void) {{\n\
              int size[2] = {{ {upper}_WIDTH, {upper}_HEIGHT }};\nfwrite(size, sizeof size, 1, stdout);\n\
              fwrite({name}, sizeof {name}, 1, stdout);\nreturn 0;\n}}\n"
         );
-        let out =
-            built(texture, Form::C, &program, &["cc", "-std=c89", "-pedantic", "-Wall", "-Werror", "-o", "program"]);
+        let out = built(texture, Form::C, &program, &C);
         let side = |at: usize| i32::from_ne_bytes(out[4 * at..4 * at + 4].try_into().unwrap()) as usize;
         Found::of_floats([side(0), side(1)], &out[8..])
     });
@@ -210,14 +240,14 @@ fn c_compiles() {
 #[test]
 fn rust_compiles() {
     check(Form::Rust, Precision::Single, |texture, _| {
-        let (name, upper) = (texture.stem, texture.stem.to_uppercase());
+        let (name, upper) = (&texture.stem, texture.stem.to_uppercase());
         let program = format!(
             "mod {name};\nuse std::io::Write;\nuse {name}::{upper};\nfn main() {{\n\
              let mut out = vec![{upper}[0].len() as u8, {upper}.len() as u8];\n\
              out.extend({upper}.iter().flatten().flatten().flat_map(|value: &f32| value.to_le_bytes()));\n\
              std::io::stdout().write_all(&out).unwrap();\n}}\n"
         );
-        let out = built(texture, Form::Rust, &program, &["rustc", "--edition=2021", "-Dwarnings", "-o", "program"]);
+        let out = built(texture, Form::Rust, &program, &RUST);
         Found::of_floats([usize::from(out[0]), usize::from(out[1])], &out[2..])
     });
 }
@@ -226,7 +256,7 @@ fn rust_compiles() {
 fn glsl_compiles_and_packs_halves_as_unpack_half_2x16_takes_them() {
     use naga::{Expression, Handle, Literal};
     check(Form::Glsl, Precision::Half, |texture, bytes| {
-        let (text, name) = (std::str::from_utf8(bytes).unwrap(), texture.stem);
+        let (text, name) = (std::str::from_utf8(bytes).unwrap(), &texture.stem);
         let main = format!("layout(location = 0) out vec4 o;\nvoid main() {{ o = {name}_texel(3, 1); }}\n");
         let options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
         let module = naga::front::glsl::Frontend::default().parse(&options, &format!("#version 450\n{text}{main}"));

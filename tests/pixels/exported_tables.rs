@@ -21,16 +21,25 @@ fn tables_are_written_in_the_forms_that_are_asked_for() {
         let [shipped, written] = [shipped, bench.path("all").join(name)].map(|path| std::fs::read(path).unwrap());
         assert!(shipped == written, "{name} is not as shipped");
     }
-    bench.run("export tables -o two --only ggx --format npy --format bin");
+    let said = bench.run("export tables -o two --only ggx --format npy --format bin --format npy");
+    assert_eq!(said.stdout.lines().count(), 2, "{}", said.stdout);
     assert_eq!(std::fs::read_dir(bench.path("two")).unwrap().count(), 2);
 }
 
 #[test]
 fn a_small_table_says_how_far_it_is_off() {
     let bench = Bench::new();
-    let said = bench.run("export tables -o small --only sheen --format bin --size 16");
+    // The shipped table stays as it is.
+    bench.run("export tables -o small --only sheen --format bin");
+    let said = bench.run("export tables -o small --only sheen --format bin --format js --size 16");
     assert!(said.stdout.starts_with("Difference from the shipped table at 63 x 63 points: a mean 0.0006"), "{said:?}");
-    assert_eq!(std::fs::read(bench.path("small/sheen_ltc.bin")).unwrap().len(), 16 * 16 * 8);
+    assert!(
+        said.stdout.contains("16 x 16 texels") && said.stdout.contains("resampled from the shipped table"),
+        "{said:?}"
+    );
+    let length = |name: &str| std::fs::read(bench.path("small").join(name)).unwrap().len();
+    assert_eq!([length("sheen_ltc.bin"), length("sheen_ltc_16.bin")], [32 * 32 * 8, 16 * 16 * 8]);
+    assert!(std::fs::read_to_string(bench.path("small/sheen_ltc_16.js")).unwrap().contains("const sheenLtc16 = "));
 }
 
 #[test]
@@ -42,6 +51,7 @@ fn what_cannot_be_exported_is_refused() {
         ("export tables -o out --size 16 --only ggx", "--size is the sheen's"),
         ("export tables -o out --format png", "ktx2"),
         ("export tables", "--output"),
+        ("export", "export takes shaders, tables or golden; see `velour export --help`"),
         ("export tables -o scene.glb", "scene.glb"),
     ] {
         bench.refused(&mut bench.command(arguments), 2, hint);

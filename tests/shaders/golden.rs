@@ -53,7 +53,7 @@ fn given(source: &str, rows: &[Row]) -> Answers {
 
 /// The shipped files and the harness.
 fn shipped() -> String {
-    let files = ["ltc.wgsl", "ltc_sample.wgsl", "sheen.wgsl", "ggx.wgsl"].map(files::source).concat();
+    let files = ["ltc.wgsl", "ltc_sample.wgsl", "sheen.wgsl", "sheen_fit.wgsl", "ggx.wgsl"].map(files::source).concat();
     [&files, include_str!("golden.wgsl")].concat()
 }
 

@@ -62,6 +62,10 @@ fn golden_row(sheen_table: texture_2d<f32>, ggx_table: texture_2d<f32>, function
         golden_put(0u, ggx_base_weight(golden_vec3(0u)));
     } else if function == 23u {
         golden_lights_factors(sheen_table, ggx_table);
+    } else if function == 24u {
+        let lobe = sheen_fit_lobe(golden_number(0u), golden_number(1u));
+        golden_put_mat3(0u, lobe.m_inv);
+        golden_put(9u, lobe.albedo);
     }
 }
 

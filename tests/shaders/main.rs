@@ -5,7 +5,6 @@ mod files;
 mod filters;
 mod form_factor;
 mod ggx;
-#[cfg(feature = "cli")]
 mod golden;
 mod lights;
 mod millions;

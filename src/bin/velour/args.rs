@@ -79,7 +79,7 @@ pub enum Command {
     /// comparisons (.png); what is there already, made with the same settings, is left
     Figures(Figures),
     /// Writes what other engines take: shaders in their languages, tables in their forms, golden numbers to check a port by
-    #[command(subcommand)]
+    #[command(subcommand, arg_required_else_help = false)]
     Export(Export),
     /// Judges a port of the shaders by the golden numbers: which of its numbers are off, and which mistake fits them
     ///

@@ -36,6 +36,7 @@ use std::process::ExitCode;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue};
 use console::complain;
 #[cfg(not(feature = "window"))]
 use failure::Failure;
@@ -93,6 +94,12 @@ fn usage(error: &clap::Error) -> ExitCode {
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
+    if let (Some(ContextValue::String(command)), Some(ContextValue::Strings(commands))) =
+        (error.get(ContextKind::InvalidSubcommand), error.get(ContextKind::ValidSubcommand))
+    {
+        complain(missing(command, commands));
+        return ExitCode::from(2);
+    }
     let text = error.to_string();
     let telling = |line: &&str| !["Usage:", "For more information"].iter().any(|start| line.starts_with(start));
     let saying = |line: &&str| !line.is_empty() && !line.starts_with("tip:");
@@ -100,4 +107,16 @@ fn usage(error: &clap::Error) -> ExitCode {
     let message = message.join(" ");
     complain(format!("{}; see `velour --help`", message.strip_prefix("error: ").unwrap_or(&message)));
     ExitCode::from(2)
+}
+
+/// What to say where `command`, with the program's name before it, lacks one of its own commands.
+fn missing(command: &str, commands: &[String]) -> String {
+    let commands: Vec<&str> = commands.iter().map(String::as_str).filter(|name| *name != "help").collect();
+    let named = match commands.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    };
+    let name = command.split_once(' ').map_or(command, |(_, name)| name);
+    format!("{name} takes {named}; see `{command} --help`")
 }

@@ -93,11 +93,13 @@ impl Answers {
 /// A number in whatever way C, C# or JavaScript print those that are none.
 fn number(word: &str) -> Result<f64, String> {
     let lower = word.to_ascii_lowercase();
-    if lower.contains("nan") || lower.contains("#ind") {
-        return Ok(f64::NAN);
-    }
-    if lower.contains("#inf") {
-        return Ok(f64::INFINITY);
+    let bare = lower.strip_prefix(['+', '-']).unwrap_or(&lower);
+    // Microsoft's older libraries fill up with digits: 1.#IND00, 1.#QNAN0e+000.
+    match bare.trim_end_matches(['0', 'e', '+']) {
+        "1.#qnan" | "1.#snan" | "1.#ind" => return Ok(f64::NAN),
+        "1.#inf" => return Ok(f64::INFINITY),
+        _ if bare == "nan" || (bare.starts_with("nan(") && bare.ends_with(')')) => return Ok(f64::NAN),
+        _ => {}
     }
     word.parse().map_err(|_| format!("{:?} is no number; give the row's id and then its outputs", excerpt(word)))
 }
@@ -189,8 +191,11 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_nan_however_it_is_printed() {
-        for word in ["nan", "NaN", "-nan", "-nan(ind)", "-1.#IND", "1.#QNAN"] {
+        for word in ["nan", "NaN", "+nan", "-nan", "-nan(ind)", "-1.#IND", "1.#QNAN", "-1.#IND00", "1.#QNAN0e+000"] {
             assert!(read(&format!("200,{word}")).unwrap()[0].1[0].is_nan(), "{word}");
+        }
+        for word in ["banana", "nano", "nan0", "1.#indigo", "#ind", "--nan", "nan(", "infant"] {
+            assert!(read(&format!("200,{word}")).unwrap_err().contains("is no number"), "{word}");
         }
         for text in ["{\"200\": [null]}", "[{\"id\": 200, \"outputs\": [NaN]}]", "{\"200\": [-Infinity]}"] {
             assert!(read(text).unwrap()[0].1[0].is_nan(), "{text}");

@@ -4,7 +4,7 @@ use super::flat::Flat;
 use super::mistake::Mistake;
 
 /// By how many tolerances a mistake's numbers have to be off to be listed.
-const DISTINCT: f64 = 4.0;
+pub(super) const DISTINCT: f64 = 4.0;
 /// Rows that a function may have: ids go by the hundred.
 const ROWS: usize = 100;
 

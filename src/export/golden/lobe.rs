@@ -18,8 +18,9 @@ const DENSITY: Definition<Towards, f64> = Definition {
     name: "ltc_density",
     output: "density",
     answer: |towards| density(towards.m_inv, towards.direction),
-    tolerance: |_, density| 2e-5 * density + 1e-9,
-    reason: "2e-5 of it: it holds the fourth power of a length, whose rounding a narrow lobe's lean enlarges.",
+    tolerance: |towards, density| 2e-6 * cancelled(towards) * density + 1e-9,
+    reason: "2e-6 of it, some roundings of a squared length that counts twice; times what cancels in that length, which a narrow lobe's lean \
+             enlarges.",
     mistaken: |towards, mistake| match mistake {
         Mistake::MInvTransposed => Some(density(towards.m_inv.transpose(), towards.direction)),
         other => mistaken_matrix(towards.m_inv, other).map(|m_inv| density(m_inv, towards.direction)),
@@ -47,6 +48,15 @@ fn density(m_inv: DMat3, direction: DVec3) -> f64 {
     let cosine = if direction.z > 0.0 { transformed.z.max(0.0) / length } else { 0.0 };
     let jacobian = m_inv.determinant() / length.powi(3);
     if length > 0.0 { cosine / PI * jacobian } else { 0.0 }
+}
+
+/// By how much the sums of magnitudes in the squared length of M^-1 w exceed it.
+fn cancelled(Towards { m_inv, direction }: &Towards) -> f64 {
+    let transformed = *m_inv * *direction;
+    let [x, y, z] = [m_inv.x_axis.abs(), m_inv.y_axis.abs(), m_inv.z_axis.abs()];
+    let magnitudes = DMat3::from_cols(x, y, z) * direction.abs();
+    let square = transformed.length_squared();
+    if square > 0.0 { transformed.abs().dot(magnitudes) / square } else { 1.0 }
 }
 
 /// A sample of the cosine, from the unit disc, under the lobe's matrix; `off` is added to the azimuth's cosine and sine.

@@ -2,7 +2,7 @@
 
 use super::flat::flat;
 use super::function::{Definition, Function, Row, none};
-use super::lookup::{ggx, mistaken_ggx, mistaken_sheen, sheen};
+use super::lookup::{ggx, mistaken_ggx, mistaken_sheen, sheen, sheen_error};
 use super::mistake::Mistake;
 use super::outline::ROUNDING;
 use super::walks::lobe;
@@ -19,8 +19,6 @@ flat!(SpecularLobe { m_inv: DMat3, albedo: f64, fresnel: f64 });
 flat!(Reflecting { lobe: SpecularLobe, f0: DVec3, f90: DVec3 });
 flat!(Specular { albedo: DVec3 });
 
-/// Error of the sheen's a, b and r.
-pub(super) const SHEEN_LOOKUP: f64 = 3e-6;
 /// Error of the specular base's shares, of a / c, b / c and 1 / sqrt(c).
 pub(super) const GGX_LOOKUP: f64 = 8e-7;
 
@@ -28,9 +26,14 @@ const SHEEN: Definition<SheenPoint, SheenLobe> = Definition {
     name: "sheen_lobe",
     output: "",
     answer: |point| sheen_lobe(sheen(point.alpha, point.mu)),
-    tolerance: |_, _| SheenLobe { m_inv: every(SHEEN_LOOKUP), albedo: SHEEN_LOOKUP },
-    reason: "3e-6, the shader's stated error: weights carry the rounding of alpha and mu times 31. A sampler with weights of 8 bits \
-             is off by up to 4e-3 of the difference between neighbouring nodes.",
+    tolerance: |point, _| {
+        let [a, b, r] = sheen_error(point.alpha, point.mu);
+        let mut m_inv = every(1e-7);
+        [m_inv.x_axis.x, m_inv.y_axis.y, m_inv.z_axis.x] = [a, a, b];
+        SheenLobe { m_inv, albedo: r }
+    },
+    reason: "4e-7, some roundings of numbers up to 1, and 3e-6 of the difference between the nodes around: weights carry the rounding of alpha and \
+             mu times 31. A sampler with weights of 8 bits is off by up to 4e-3 of that difference.",
     mistaken: |point, mistake| match mistake {
         Mistake::MInvTransposed => {
             let lobe = sheen_lobe(sheen(point.alpha, point.mu));
@@ -100,7 +103,7 @@ const GGX_BASE: Definition<Specular, f64> = Definition {
     mistaken: none,
 };
 
-fn sheen_lobe([a, b, r]: [f64; 3]) -> SheenLobe {
+pub(super) fn sheen_lobe([a, b, r]: [f64; 3]) -> SheenLobe {
     SheenLobe { m_inv: lobe(a, b, a), albedo: r }
 }
 
@@ -124,7 +127,7 @@ fn ggx_tolerance(exact: &SpecularLobe) -> SpecularLobe {
 }
 
 /// Places in the unit square, named.
-const PLACES: [(&str, [f64; 2]); 24] = [
+pub(super) const PLACES: [(&str, [f64; 2]); 24] = [
     ("between nodes", [0.5, 0.3]),
     ("between nodes", [0.31, 0.87]),
     ("between nodes", [0.77, 0.62]),

@@ -15,9 +15,31 @@ static GGX: LazyLock<GgxTable> = LazyLock::new(|| {
     shipped.expect("the shipped table is built in and tests read it")
 });
 
+/// Error of what lies between two nodes, of numbers up to 1.
+const NUMBER: f64 = 4e-7;
+/// Error of both weights together: alpha and mu times 31 are rounded.
+const WEIGHT: f64 = 3e-6;
+
 /// `[a, b, r]` of the sheen.
 pub(super) fn sheen(alpha: f64, mu: f64) -> [f64; 3] {
     SHEEN.lookup(alpha, mu)
+}
+
+/// How far `[a, b, r]` may be off: roundings of numbers up to 1, and a weight's error of what differs between the nodes around.
+pub(super) fn sheen_error(alpha: f64, mu: f64) -> [f64; 3] {
+    let [width, height] = SHEEN.size();
+    let around = |x: f64, count: usize| {
+        let at = x.clamp(0.0, 1.0) * (count - 1) as f64;
+        // At a node rounding may lead into the cell beside it.
+        (at - 1e-3).max(0.0) as usize..=((at + 1e-3) as usize + 1).min(count - 1)
+    };
+    let cells: Vec<[f64; 3]> =
+        around(alpha, width).flat_map(|x| around(mu, height).map(move |y| SHEEN.cell(x, y))).collect();
+    std::array::from_fn(|k| {
+        let (least, most) =
+            cells.iter().fold((f64::MAX, f64::MIN), |(least, most), cell| (least.min(cell[k]), most.max(cell[k])));
+        NUMBER + WEIGHT * (most - least)
+    })
 }
 
 /// The specular base's lobe.
@@ -95,6 +117,20 @@ fn between<const N: usize>(size: [usize; 2], at: [f64; 2], texel: impl Fn(usize,
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn errors_follow_what_differs_between_nodes() {
+        // Of r beside mu = 0, where it leaps, and where it is flat.
+        let ([.., steep], [.., flat]) = (sheen_error(0.09, 0.03), sheen_error(0.9, 0.9));
+        assert!(steep > 1e-6 && steep <= NUMBER + WEIGHT, "{steep}");
+        assert!(flat > NUMBER && flat < 7e-7, "{flat}");
+        // At a node the cells on both sides count.
+        let at = sheen_error(10.0 / 31.0, 20.0 / 31.0);
+        for (x, y) in [(9.5, 19.5), (10.5, 19.5), (9.5, 20.5), (10.5, 20.5)] {
+            let beside = sheen_error(x / 31.0, y / 31.0);
+            assert!(at.iter().zip(beside).all(|(at, beside)| *at >= beside));
+        }
+    }
 
     #[test]
     fn wrong_lookups_are_the_right_ones_where_the_mistake_is_undone() {

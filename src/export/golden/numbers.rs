@@ -1,7 +1,7 @@
 //! All golden numbers.
 
 use super::function::{Function, Row};
-use super::{angles, fans, frame, lobe, lobes, scenes, walks};
+use super::{angles, fans, formulas, frame, lobe, lobes, scenes, walks};
 
 /// All functions with their rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Golden {
 /// A function and its rows, given its index.
 type Make = fn(usize) -> (Function, Vec<Row>);
 
-const MAKES: [Make; 24] = [
+const MAKES: [Make; 25] = [
     frame::frames,
     frame::sides,
     walks::begins,
@@ -40,6 +40,7 @@ const MAKES: [Make; 24] = [
     lobes::ggx_albedos,
     lobes::ggx_bases,
     scenes::lights_factors,
+    formulas::sheen_fits,
 ];
 
 impl Golden {
@@ -53,9 +54,7 @@ impl Golden {
         }
         Self { functions, rows }
     }
-}
 
-impl Golden {
     /// The row with this id.
     pub fn row(&self, id: u32) -> Option<&Row> {
         self.rows.binary_search_by_key(&id, |row| row.id).ok().map(|index| &self.rows[index])

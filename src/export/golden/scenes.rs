@@ -124,99 +124,90 @@ fn ordinary() -> Vec<(String, Scene)> {
     cases
 }
 
-fn shapes() -> Vec<(String, Scene)> {
-    let overhead = |height: f64, outline| Light {
-        middle: [0.3, -0.45, height],
-        normal: [0.0, 0.0, -1.0],
-        along: [1.0, 0.3, 0.0],
-        outline,
+/// A light, and the surface that it shines on.
+fn of(name: &str, surface: Surface, two_sided: bool, light: &Light) -> (String, Scene) {
+    (name.to_owned(), scene(surface, two_sided, &light.corners()))
+}
+
+/// Over the floor, facing down.
+fn overhead(height: f64, outline: Vec<[f64; 2]>) -> Light {
+    Light { middle: [0.3, -0.45, height], normal: [0.0, 0.0, -1.0], along: [1.0, 0.3, 0.0], outline }
+}
+
+/// From far above to below the floor, before the point.
+fn slanting(normal: [f64; 3]) -> Light {
+    let middle = DVec3::from(FLOOR.position) - 1.2 * DVec3::from(normal);
+    Light { middle: middle.to_array(), normal, along: [normal[1], -normal[0], 0.0], outline: rectangle(3.0, 4.5) }
+}
+
+/// Huge, tiny, near and thin.
+fn sizes() -> Vec<(String, Scene)> {
+    let far = Light {
+        middle: [300.0, -400.0, 700.0],
+        normal: [-0.3, 0.4, -0.8],
+        along: [1.0, 0.0, 0.0],
+        outline: rectangle(16.0, 8.0),
     };
-    // From far above to below the floor, before the point.
-    let slanting = |normal: [f64; 3]| Light {
-        middle: (DVec3::from(FLOOR.position) - 1.2 * DVec3::from(normal)).to_array(),
-        normal,
-        along: [normal[1], -normal[0], 0.0],
-        outline: rectangle(3.0, 4.5),
+    let low = Light {
+        middle: [-900.0, 1000.0, 60.0],
+        normal: [0.6, -0.8, 0.1],
+        along: [0.1, 0.1, 1.0],
+        outline: regular(5, 25.0),
     };
+    let [fuzz, dust] = [0.15, 0.9].map(|alpha| Surface { alpha, ..FLOOR });
+    let dusty_slope = Surface { alpha: 0.75, ..SLOPE };
+    let wide = overhead(3.0, rectangle(500.0, 400.0));
+    vec![
+        of("light around the zenith", FLOOR, false, &overhead(1.5, rectangle(2.0, 1.4))),
+        of("octagon around the zenith", fuzz, true, &overhead(0.8, regular(8, 1.0))),
+        of("huge near light", FLOOR, false, &overhead(0.25, rectangle(2000.0, 3000.0))),
+        of("huge near light partly below the horizon", dusty_slope, false, &wide),
+        of("tiny far light", SLOPE, false, &far),
+        of("tiny far light near the horizon", FLOOR, true, &low),
+        of("near light", Surface { alpha: 0.3, ..FLOOR }, false, &overhead(0.05, rectangle(0.8, 0.6))),
+        of("a hair over the surface", FLOOR, false, &overhead(1e-3, rectangle(3.0, 2.0))),
+        of("thin light", SLOPE, false, &Light { outline: rectangle(2.5, 0.01), ..panel(4) }),
+        of("thin light partly below the horizon", dust, false, &wall(rectangle(0.02, 2.5))),
+    ]
+}
+
+fn concave() -> Vec<(String, Scene)> {
     let arrow = vec![[-0.9, -0.6], [1.0, 0.0], [-0.9, 0.7], [-0.4, 0.05]];
     let star: Vec<[f64; 2]> = (0..8)
         .map(|k| ((if k % 2 == 0 { 1.3 } else { 0.45 }) * DVec2::from_angle(0.2 + TAU * f64::from(k) / 8.0)).to_array())
         .collect();
     let teeth =
         vec![[-1.2, 0.7], [-1.0, -0.9], [-0.6, 0.1], [-0.2, -0.8], [0.3, 0.2], [0.7, -0.9], [1.2, -0.3], [1.1, 0.8]];
-    let of =
-        |name: &str, surface, two_sided, light: &Light| (name.to_owned(), scene(surface, two_sided, &light.corners()));
+    let raised = |outline: &[[f64; 2]]| Light { outline: outline.to_vec(), ..panel(4) };
+    let from_behind = Surface { view: [-0.3, 0.8, 0.3], ..FLOOR };
     vec![
-        of("light around the zenith", FLOOR, false, &overhead(1.5, rectangle(2.0, 1.4))),
-        of("octagon around the zenith", Surface { alpha: 0.15, ..FLOOR }, true, &overhead(0.8, regular(8, 1.0))),
-        of("huge near light", FLOOR, false, &overhead(0.25, rectangle(2000.0, 3000.0))),
-        of(
-            "huge near light partly below the horizon",
-            Surface { alpha: 0.75, ..SLOPE },
-            false,
-            &overhead(3.0, rectangle(500.0, 400.0)),
-        ),
-        of(
-            "tiny far light",
-            SLOPE,
-            false,
-            &Light {
-                middle: [300.0, -400.0, 700.0],
-                normal: [-0.3, 0.4, -0.8],
-                along: [1.0, 0.0, 0.0],
-                outline: rectangle(16.0, 8.0),
-            },
-        ),
-        of(
-            "tiny far light near the horizon",
-            FLOOR,
-            true,
-            &Light {
-                middle: [-900.0, 1000.0, 60.0],
-                normal: [0.6, -0.8, 0.1],
-                along: [0.1, 0.1, 1.0],
-                outline: regular(5, 25.0),
-            },
-        ),
-        of("near light", Surface { alpha: 0.3, ..FLOOR }, false, &overhead(0.05, rectangle(0.8, 0.6))),
-        of("a hair over the surface", FLOOR, false, &overhead(1e-3, rectangle(3.0, 2.0))),
-        of("thin light", SLOPE, false, &Light { outline: rectangle(2.5, 0.01), ..panel(4) }),
-        of("thin light partly below the horizon", Surface { alpha: 0.9, ..FLOOR }, false, &wall(rectangle(0.02, 2.5))),
-        of("concave: an arrow", SLOPE, false, &Light { outline: arrow.clone(), ..panel(4) }),
+        of("concave: an arrow", SLOPE, false, &raised(&arrow)),
         of("concave: an arrow partly below the horizon", FLOOR, false, &wall(arrow)),
-        of("concave: a star", Surface { alpha: 0.3, ..SLOPE }, false, &Light { outline: star.clone(), ..panel(8) }),
-        of("concave: a star partly below the horizon", Surface { view: [-0.3, 0.8, 0.3], ..FLOOR }, true, &wall(star)),
+        of("concave: a star", Surface { alpha: 0.3, ..SLOPE }, false, &raised(&star)),
+        of("concave: a star partly below the horizon", from_behind, true, &wall(star)),
         of("concave: teeth that cross the horizon six times", FLOOR, false, &wall(teeth)),
-        of("one-sided from behind", SLOPE, false, &Light { normal: [0.2, -0.6, 0.8], ..panel(5) }),
-        of(
-            "one-sided from behind partly below the horizon",
-            FLOOR,
-            false,
-            &Light { normal: [0.9, 0.4, -0.1], ..wall(regular(5, 1.2)) },
-        ),
-        of("two-sided from behind", SLOPE, true, &Light { normal: [0.2, -0.6, 0.8], ..panel(5) }),
-        of(
-            "two-sided from behind partly below the horizon",
-            FLOOR,
-            true,
-            &Light { normal: [0.9, 0.4, -0.1], ..wall(regular(5, 1.2)) },
-        ),
+    ]
+}
+
+/// Lights whose side or place below the horizon matters.
+fn sides() -> Vec<(String, Scene)> {
+    let turned = Light { normal: [0.2, -0.6, 0.8], ..panel(5) };
+    let turned_low = Light { normal: [0.9, 0.4, -0.1], ..wall(regular(5, 1.2)) };
+    let below = overhead(-1.0, rectangle(1.0, 2.0));
+    let facing_up = Light { normal: [0.0, 0.0, 1.0], ..overhead(-1.0, rectangle(1.0, 2.0)) };
+    let [wool, dust] = [0.5, 0.7].map(|alpha| Surface { alpha, ..FLOOR });
+    let other_way = Surface { view: [0.2, 0.8, 0.4], ..FLOOR };
+    vec![
+        of("one-sided from behind", SLOPE, false, &turned),
+        of("one-sided from behind partly below the horizon", FLOOR, false, &turned_low),
+        of("two-sided from behind", SLOPE, true, &turned),
+        of("two-sided from behind partly below the horizon", FLOOR, true, &turned_low),
         of("two-sided from the front", SLOPE, true, &panel(5)),
-        of(
-            "slanting from overhead to below the horizon",
-            Surface { alpha: 0.5, ..FLOOR },
-            false,
-            &slanting([-0.7, -0.2, -0.6]),
-        ),
-        of("slanting the other way", Surface { view: [0.2, 0.8, 0.4], ..FLOOR }, false, &slanting([0.5, -0.4, -0.6])),
-        of("slanting along y", Surface { alpha: 0.7, ..FLOOR }, true, &slanting([0.1, 0.8, -0.5])),
-        of(
-            "wholly below the horizon and facing up",
-            FLOOR,
-            false,
-            &Light { normal: [0.0, 0.0, 1.0], ..overhead(-1.0, rectangle(1.0, 2.0)) },
-        ),
-        of("wholly below the horizon and two-sided", FLOOR, true, &overhead(-1.0, rectangle(1.0, 2.0))),
+        of("slanting from overhead to below the horizon", wool, false, &slanting([-0.7, -0.2, -0.6])),
+        of("slanting the other way", other_way, false, &slanting([0.5, -0.4, -0.6])),
+        of("slanting along y", dust, true, &slanting([0.1, 0.8, -0.5])),
+        of("wholly below the horizon and facing up", FLOOR, false, &facing_up),
+        of("wholly below the horizon and two-sided", FLOOR, true, &below),
     ]
 }
 
@@ -278,6 +269,6 @@ fn dark() -> Vec<(String, Scene)> {
 }
 
 pub(super) fn lights_factors(index: usize) -> (Function, Vec<Row>) {
-    let cases: Vec<(String, Scene)> = [ordinary(), shapes(), materials(), dark()].concat();
+    let cases: Vec<(String, Scene)> = [ordinary(), sizes(), concave(), sides(), materials(), dark()].concat();
     LIGHTS_FACTORS.rows(index, cases.iter().map(|(case, scene)| (case.as_str(), *scene)))
 }

@@ -10,9 +10,10 @@ use std::collections::BTreeMap;
 const ABOUT: [&str; 14] = [
     "SPDX-License-Identifier: MIT OR Apache-2.0 OR 0BSD",
     "SPDX-FileCopyrightText: 2026 The Velour authors",
-    "Golden numbers: what every function of shaders/{ltc,ltc_sample,sheen,ggx}.wgsl gives for some inputs, to check a port by.",
-    "Inputs are exact 32-bit floats. Outputs are computed in 64 bits from the halves in tables/*.dds, by definitions that share no step with \
-     the shaders.",
+    "Golden numbers: what every function of shaders/{ltc,ltc_sample,sheen,sheen_fit,ggx}.wgsl gives for some inputs, to check a port by.",
+    "Inputs are exact 32-bit floats. Outputs are computed in 64 bits from the halves in tables/*.dds: form factors of the whole by a clipped \
+     polygon, lookups by the library, angles and matrices by arctangents, inverses and determinants, independently of the shaders. Where a \
+     definition is a formula (ltc_next's crossing, the closing angle, weights of layers, sheen_fit's polynomials) it is the shaders' own, in 64 bits.",
     "Numbers: structs are their fields in order of declaration, vectors x y z, matrices column by column, bools 0 or 1. Textures are left \
      out: they are the shipped tables.",
     "lights_factors is the whole: frame, lookups and one walk around a light of n corners (counter-clockwise as seen from the lit side), for \
@@ -114,7 +115,12 @@ fn line(value: &impl Serialize) -> String {
 }
 
 fn rounded(numbers: &[f64]) -> Vec<f64> {
-    numbers.iter().map(|number| to_digits(*number, DIGITS)).collect()
+    numbers.iter().map(|number| to_decimals(to_digits(*number, DIGITS))).collect()
+}
+
+/// Without what is too small: not all readers of JSON get digits past the 22nd right.
+fn to_decimals(number: f64) -> f64 {
+    format!("{number:.22}").parse::<f64>().expect("a number that was written is one") + 0.0
 }
 
 /// Rounded to so many digits; without a negative zero.
@@ -143,26 +149,41 @@ mod tests {
     const CSV: &str = include_str!("../../../tables/golden.csv");
     const JSON: &str = include_str!("../../../tables/golden.json");
 
-    /// Whether two texts are the same but for numbers, which may differ by 1e-9 of them. (Mathematical libraries differ.)
-    fn same_text(one: &str, other: &str) -> bool {
-        let words = |text: &str| -> Vec<String> {
-            let ends = |letter: char| letter.is_whitespace() || ",:[]{}".contains(letter);
-            text.split_inclusive(ends).map(str::to_owned).collect()
-        };
-        let (one, other) = (words(one), words(other));
-        one.len() == other.len() && one.iter().zip(&other).all(|(one, other)| one == other || same_word(one, other))
+    /// Whether two lines are the same but for numbers, which may differ by 1e-9 of them (mathematical libraries differ), and for
+    /// tolerances, which have two digits: the last may be rounded either way.
+    fn same_line(one: &str, other: &str) -> bool {
+        let near = |one: f64, other: f64| (one - other).abs() <= 1e-9 * one.abs().max(1e-3);
+        let [one, other] = [one, other].map(around_tolerances);
+        same_words(one[0], other[0], near)
+            && same_words(one[1], other[1], |one, other| near(one, other) || is_last_digit(one, other))
+            && same_words(one[2], other[2], near)
     }
 
-    fn same_word(one: &str, other: &str) -> bool {
+    /// What stands before a row's tolerances, they, and what stands behind them.
+    fn around_tolerances(line: &str) -> [&str; 3] {
+        let json = line.split_once("\"tolerances\":[").and_then(|(before, rest)| Some((before, rest.split_once(']')?)));
+        let is_row = line.starts_with(|letter: char| letter.is_ascii_digit()) && line.matches(',').count() == 6;
+        match (json, line.rsplit_once(',')) {
+            (Some((before, (tolerances, behind))), _) => [before, tolerances, behind],
+            (None, Some((before, tolerances))) if is_row => [before, tolerances, ""],
+            _ => [line, "", ""],
+        }
+    }
+
+    fn same_words(one: &str, other: &str, near: impl Fn(f64, f64) -> bool) -> bool {
+        let ends = |letter: char| letter.is_whitespace() || ",:[]{}".contains(letter);
+        let [one, other] = [one, other].map(|text| text.split_inclusive(ends).collect::<Vec<_>>());
+        one.len() == other.len() && one.iter().zip(&other).all(|(one, other)| same_word(one, other, &near))
+    }
+
+    fn same_word(one: &str, other: &str, near: impl Fn(f64, f64) -> bool) -> bool {
         let number = |word: &str| {
             let at = word.trim_end_matches(|letter: char| !letter.is_ascii_digit()).len();
             (word[..at].parse::<f64>().ok(), word[at..].to_owned())
         };
-        let ((one, one_end), (other, other_end)) = (number(one), number(other));
-        // Tolerances have two digits, the last of which may be rounded either way.
-        let near =
-            |one: f64, other: f64| (one - other).abs() <= 1e-9 * one.abs().max(1e-3) || is_last_digit(one, other);
-        one_end == other_end && one.zip(other).is_some_and(|(one, other)| near(one, other))
+        let ((first, first_end), (second, second_end)) = (number(one), number(other));
+        let is_near = first_end == second_end && first.zip(second).is_some_and(|(first, second)| near(first, second));
+        one == other || is_near
     }
 
     fn is_last_digit(one: f64, other: f64) -> bool {
@@ -173,13 +194,30 @@ mod tests {
     fn the_files_are_what_export_makes() {
         let golden = Golden::new();
         for (name, file, made) in [("csv", CSV, golden.to_csv()), ("json", JSON, golden.to_json())] {
-            let first = file.lines().zip(made.lines()).position(|(file, made)| !same_text(file, made));
+            let first = file.lines().zip(made.lines()).position(|(file, made)| !same_line(file, made));
             assert_eq!(first, None, "a line of tables/golden.{name} is old: velour export golden -o tables");
             assert_eq!(file.lines().count(), made.lines().count(), "golden.{name}");
         }
-        assert!(same_text("1,0.5 2.25,x", "1,0.5000000001 2.25,x"));
+    }
+
+    #[test]
+    fn lines_are_the_same_but_for_rounding() {
+        assert!(same_line("1,0.5 2.25,x", "1,0.5000000001 2.25,x"));
         for other in ["1,0.50000001 2.25,x", "1,0.5 2.25,y", "1,0.5 2.25", "1,-0.5 2.25,x", "1,0.5 2.25 3,x"] {
-            assert!(!same_text("1,0.5 2.25,x", other), "{other}");
+            assert!(!same_line("1,0.5 2.25,x", other), "{other}");
+        }
+        // The last digit of a tolerance, and of nothing else.
+        let csv = |id: u32, output: f64, tolerance: f64| format!("{id},f,case,,1.0,{output} 0.5,{tolerance:?} -");
+        let json = |id: u32, output: f64, tolerance: f64| {
+            format!(r#"{{"id":{id},"outputs":[{output},0.5],"tolerances":[{tolerance:?},null],"mistakes":{{}}}}"#)
+        };
+        let kinds: [&dyn Fn(u32, f64, f64) -> String; 2] = [&csv, &json];
+        for line in kinds {
+            let made = line(100, 0.5, 5e-7);
+            assert!(same_line(&made, &line(100, 0.5, 5.1e-7)), "{made}");
+            for other in [line(110, 0.5, 5e-7), line(100, 0.55, 5e-7), line(100, 0.5, 6e-7)] {
+                assert!(!same_line(&made, &other), "{other}");
+            }
         }
     }
 

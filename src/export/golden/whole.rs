@@ -3,8 +3,8 @@
 use super::flat::{Flat, flat};
 use super::frame::local_from_world;
 use super::function::Definition;
-use super::lobes::{GGX_LOOKUP, SHEEN_LOOKUP};
-use super::lookup::{ggx, mistaken_ggx, mistaken_sheen, sheen};
+use super::lobes::GGX_LOOKUP;
+use super::lookup::{ggx, mistaken_ggx, mistaken_sheen, sheen, sheen_error};
 use super::mistake::Mistake;
 use super::outline::{Edge, begin, edge_vector, next};
 use super::walks::lobe;
@@ -50,7 +50,7 @@ pub(super) const LIGHTS_FACTORS: Definition<Scene, Factors> = Definition {
     output: "",
     answer: |scene| Seen::of(scene).factors(),
     tolerance,
-    reason: "mu 3e-7; a, b, r 3e-6 and what that makes of them; form factors 1e-6 times c/a of the lobe, and what corners that are off by 3e-7 of \
+    reason: "mu 4e-7; a, b, r what sheen_lobe's may be off by and what mu makes of them; form factors 1e-6 times c/a of the lobe, and what corners that are off by 3e-7 of \
              their distance in the shading frame, and a frame that is turned by 4e-7 over the sine between normal and view, and lookups that are off by their own errors, make of them. Where \
              view and normal coincide, the frame's x axis is any tangent: what depends on it is not compared.",
     mistaken: |scene, mistake| {
@@ -168,15 +168,8 @@ impl Seen {
 
 fn tolerance(scene: &Scene, exact: &Factors) -> Factors {
     let seen = Seen::of(scene);
-    let mut off = Factors {
-        mu: 1e-7,
-        a: SHEEN_LOOKUP,
-        b: SHEEN_LOOKUP,
-        r: SHEEN_LOOKUP,
-        diffuse: WALK,
-        sheen: WALK,
-        specular: WALK,
-    };
+    let [a, b, r] = sheen_error(scene.alpha, seen.mu);
+    let mut off = Factors { mu: 1e-7, a, b, r, diffuse: WALK, sheen: WALK, specular: WALK };
     off.specular *= (seen.specular.c / seen.specular.a).max(1.0);
     // Where no light arrives nothing else counts: neither do corners that are moved out of their plane.
     let is_dark = seen.side() == 0.0;
@@ -188,7 +181,7 @@ fn tolerance(scene: &Scene, exact: &Factors) -> Factors {
     add(moved_cosine(scene));
     if !is_dark {
         add(turned(scene));
-        add(moved_lookups(&seen));
+        add(moved_lookups(&seen, [a, b]));
         (0..seen.contour.len()).for_each(|k| (0..3).for_each(|axis| add(moved_corner(&seen, k, axis))));
     }
     off.each("", &mut |_, tolerance| {
@@ -219,13 +212,13 @@ fn moved_cosine(scene: &Scene) -> Vec<Seen> {
 }
 
 /// The same with the lobes' numbers off.
-fn moved_lookups(seen: &Seen) -> Vec<Seen> {
+fn moved_lookups(seen: &Seen, [a_off, b_off]: [f64; 2]) -> Vec<Seen> {
     let [a, b, r] = seen.sheen;
     let Ltc { a: wide, b: lean, c } = seen.specular;
     let signs = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
     signs
         .map(|[s, t]| {
-            let sheen = [a + s * SHEEN_LOOKUP, b + t * SHEEN_LOOKUP, r];
+            let sheen = [a + s * a_off, b + t * b_off, r];
             let grown = 1.0 + 2.0 * s * c.sqrt() * GGX_LOOKUP;
             let [a, b, c] = [wide + s * c * GGX_LOOKUP, lean + t * c * GGX_LOOKUP, c].map(|entry| entry * grown);
             let specular = Ltc { a, b, c };

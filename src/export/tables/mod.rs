@@ -23,5 +23,5 @@ mod texture;
 
 pub use difference::Difference;
 pub use form::Form;
-pub use resample::{SIDES, resample, resampled};
+pub use resample::{SIDES, resample, resampled, resampled_stem};
 pub use texture::Texture;

@@ -55,7 +55,7 @@ fn solver(samples: usize, side: usize) -> DMatrix<f64> {
     normal.solve(&weights.transpose())
 }
 
-/// The shipped table of the sheen on `side` nodes a side, and how far it is from that.
+/// The shipped table of the sheen on `side` nodes a side, named `sheen_ltc_SIDE`, and how far it is from that.
 pub fn resampled(side: usize) -> (Texture, Difference) {
     let shipped = SheenTable::embedded();
     let table = resample(&shipped, side);
@@ -72,5 +72,13 @@ Made by: velour export tables --size {side}",
         side - 1
     );
     let head: Vec<String> = head.lines().map(str::to_owned).collect();
-    (Texture::sheen(&table, table.to_csv(&head)), difference)
+    let mut texture = Texture::sheen(&table, table.to_csv(&head));
+    texture.stem = resampled_stem(side);
+    texture.meaning += "; resampled from the shipped table";
+    (texture, difference)
+}
+
+/// The name of the table on `side` nodes a side: another one than the shipped table's, which it does not replace.
+pub fn resampled_stem(side: usize) -> String {
+    format!("sheen_ltc_{side}")
 }

@@ -14,7 +14,7 @@ pub(super) const LICENCE: &str = "MIT OR Apache-2.0 OR 0BSD";
 /// of three.js, say.
 pub fn js(texture: &Texture) -> String {
     let [width, height] = texture.size;
-    let name = camel_case(texture.stem);
+    let name = camel_case(&texture.stem);
     let data = lines(texture, texture.halves().map(|texel| list(texel.map(f16::to_bits))));
     format!(
         "{}export const {name} = {{ width: {width}, height: {height}, data: new Uint16Array([\n{data}]) }};\n",
@@ -25,7 +25,7 @@ pub fn js(texture: &Texture) -> String {
 /// `static const float NAME[NAME_HEIGHT][NAME_WIDTH][4]`, in C89 and all that came after, and in C++.
 pub fn c(texture: &Texture) -> String {
     let [width, height] = texture.size;
-    let (name, upper) = (texture.stem, texture.stem.to_uppercase());
+    let (name, upper) = (&texture.stem, texture.stem.to_uppercase());
     let texel = |texel: &[f64; 4]| format!("{{{}}}", list(texel.map(|value| format!("{value:?}f"))));
     let rows = brackets(texture, texture.texels.iter().map(texel), ["{", "}"]);
     let head: String =
@@ -51,7 +51,7 @@ pub fn rust(texture: &Texture) -> String {
 /// A constant array of packed halves, and the function that reads a texel of it.
 pub fn glsl(texture: &Texture) -> String {
     let [width, height] = texture.size;
-    let (name, upper, count) = (texture.stem, texture.stem.to_uppercase(), width * height);
+    let (name, upper, count) = (&texture.stem, texture.stem.to_uppercase(), width * height);
     let pack = |[low, high]: [f16; 2]| u32::from(low.to_bits()) | u32::from(high.to_bits()) << 16;
     let texel = |[r, g, b, a]: [f16; 4]| format!("uvec2({:#x}u, {:#x}u)", pack([r, g]), pack([b, a]));
     let data = lines(texture, texture.halves().map(texel));

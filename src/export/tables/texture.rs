@@ -9,13 +9,13 @@ use crate::table::{GgxTable, SheenTable};
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// The name without an extension; in sources, the array's.
-    pub stem: &'static str,
+    pub stem: String,
     /// Texels along x and y.
     pub size: [usize; 2],
     /// Row by row, as the .csv has them.
     pub texels: Vec<[f64; 4]>,
     /// What it is, and what its axes and channels are: a sentence without its full stop.
-    meaning: String,
+    pub(super) meaning: String,
     pub(super) csv: String,
     pub(super) dds: Vec<u8>,
 }
@@ -41,7 +41,7 @@ impl Texture {
             height - 1
         );
         let texels = rows([width, height], texel).collect();
-        Self { stem: "sheen_ltc", size: [width, height], texels, meaning, csv, dds: table.to_dds() }
+        Self { stem: "sheen_ltc".to_owned(), size: [width, height], texels, meaning, csv, dds: table.to_dds() }
     }
 
     /// The specular base's table, with its text: two parts, one above the other.
@@ -63,7 +63,7 @@ impl Texture {
             height - 1
         );
         let texels = rows([width, height], shape).chain(rows([width, height], share)).collect();
-        Self { stem: "ggx_ltc", size: table.texture_size(), texels, meaning, csv, dds: table.to_dds() }
+        Self { stem: "ggx_ltc".to_owned(), size: table.texture_size(), texels, meaning, csv, dds: table.to_dds() }
     }
 
     /// The file's name.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use velour::export::tables::{Form, SIDES, Texture, resampled};
+use velour::export::tables::{Form, SIDES, Texture, resampled, resampled_stem};
 use velour::file::write_atomically;
 
 use crate::console::say;
@@ -16,14 +16,14 @@ pub struct Tables {
     /// Folder of the files; made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// The form, several times for several [default: all]
+    /// The form; several times for several [default: all]
     #[arg(long, value_enum)]
     format: Vec<Format>,
     /// Which table: the sheen's (alpha along x, mu along y), or the specular base's (roughness along x, sqrt(1 - mu) along y) [default: both]
     #[arg(long, value_enum)]
     only: Option<Table>,
-    /// Nodes a side of the sheen's table, 2 to 128: resampled by least squares, with the difference printed [default: 32, as
-    /// shipped]
+    /// Nodes a side of the sheen's table, 2 to 128: resampled by least squares, with the difference printed, and named sheen_ltc_N
+    /// [default: 32, as shipped]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(*SIDES.start() as i64..=*SIDES.end() as i64))]
     size: Option<u16>,
 }
@@ -80,12 +80,11 @@ pub fn run(arguments: &Tables) -> Result<(), Failure> {
     if arguments.size.is_some() && arguments.only == Some(Table::Ggx) {
         return Err(Failure::input("--size is the sheen's: leave it out, or --only ggx"));
     }
-    let forms: Vec<Form> = if arguments.format.is_empty() {
-        Form::ALL.to_vec()
-    } else {
-        arguments.format.iter().map(|format| format.form()).collect()
-    };
+    let forms = forms(&arguments.format);
     let [mut sheen, ggx] = Texture::shipped();
+    if let Some(size) = arguments.size {
+        sheen.stem = resampled_stem(usize::from(size));
+    }
     let wanted = |table| arguments.only.is_none_or(|only| only == table);
     let folder = &arguments.output;
     let names = [(Table::Sheen, &sheen), (Table::Ggx, &ggx)].into_iter().filter(|(table, _)| wanted(*table));
@@ -105,4 +104,12 @@ pub fn run(arguments: &Tables) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// The forms that are asked for, each once.
+fn forms(asked: &[Format]) -> Vec<Form> {
+    if asked.is_empty() {
+        return Form::ALL.to_vec();
+    }
+    Form::ALL.into_iter().filter(|form| asked.iter().any(|format| format.form() == *form)).collect()
 }
