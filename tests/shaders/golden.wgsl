@@ -103,8 +103,8 @@ fn golden_lights_factors(sheen_table: texture_2d<f32>, ggx_table: texture_2d<f32
     golden_put(2u, sheen.m_inv[2].x);
     golden_put(3u, sheen.albedo);
     golden_put(4u, ltc_form_factor(sums.x, turn, GOLDEN_IDENTITY, side));
-    golden_put(5u, ltc_form_factor(sums.y, turn, sheen.m_inv, side));
-    golden_put(6u, ltc_form_factor(sums.z, specular_turn, specular.m_inv, side));
+    golden_put(5u, ltc_form_factor(sums.z, specular_turn, specular.m_inv, side));
+    golden_put(6u, ltc_form_factor(sums.y, turn, sheen.m_inv, side));
 }
 
 fn golden_sample_edge() -> LtcSampleFan {

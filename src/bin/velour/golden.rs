@@ -14,6 +14,8 @@ use crate::failure::Failure;
 const MAX_BYTES: u64 = 64 << 20;
 /// Rows of a function, and numbers of a row, that are shown.
 const SHOWN: usize = 4;
+/// What fits less than one of so many rows that are off is no cause.
+const RARE: usize = 10;
 /// Ids that are shown where they are many.
 const IDS: usize = 12;
 
@@ -60,6 +62,9 @@ fn text(arguments: &GoldenCheck) -> Result<String, String> {
         return Err(format!("is longer than {MAX_BYTES} bytes; give each row's id and outputs"));
     }
     String::from_utf8(bytes).map_err(|error| {
+        if matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]) {
+            return "is UTF-16 text; save it as UTF-8".to_owned();
+        }
         let at = error.utf8_error().valid_up_to();
         format!("byte {at} is not UTF-8 text; give lines of id,number,number,... or JSON")
     })
@@ -83,21 +88,49 @@ fn report(judgement: &Judgement, golden: &Golden, given: usize) {
         }
         say_rest(off.len(), SHOWN, "row", "rows");
     }
-    for cause in &judgement.causes {
-        let count = cause.rows.len();
-        say(format!(
-            "{} ({count} of {}): {}",
-            cause.mistake.name(),
-            counted(ids.len(), "row", "rows"),
-            cause.mistake.advice()
-        ));
-    }
-    if !judgement.unexplained.is_empty() {
-        say(format!("no mistake of the key fits {}", listed(&judgement.unexplained)));
+    report_causes(judgement, ids.len());
+    if ids.is_empty() {
+        say("all that is given is right");
     }
     if !judgement.missing.is_empty() {
-        say(format!("not given: {}", listed(&judgement.missing)));
+        say(format!("not given: {}", missing(judgement, golden)));
     }
+}
+
+/// The mistakes that fit. One that fits a few rows of many may do so by chance: it is named without advice.
+fn report_causes(judgement: &Judgement, off: usize) {
+    let is_chance = |count: usize| RARE * count < off;
+    for cause in &judgement.causes {
+        let count = cause.rows.len();
+        let share = format!("{count} of {}", counted(off, "row", "rows"));
+        let name = cause.mistake.name();
+        if is_chance(count) {
+            say(format!("{name} fits {share}, perhaps by chance: {}", listed(&cause.rows)));
+        } else {
+            say(format!("{name} ({share}): {}", cause.mistake.advice()));
+        }
+    }
+    let mut none: Vec<u32> = judgement.off.iter().filter(|off| off.given.is_nan()).map(|off| off.id).collect();
+    none.dedup();
+    if !none.is_empty() {
+        say(format!("not a number in {}", listed(&none)));
+    }
+    if !judgement.unexplained.is_empty() {
+        let rows = listed(&judgement.unexplained);
+        say(format!(
+            "no mistake of the key fits {rows}; 'Nearly right' in docs/golden.md has what small differences come from"
+        ));
+    }
+}
+
+/// Functions and how many of their rows were not given.
+fn missing(judgement: &Judgement, golden: &Golden) -> String {
+    let rows: Vec<usize> = judgement.missing.iter().filter_map(|id| golden.row(*id)).map(|row| row.function).collect();
+    let named = golden.functions.iter().enumerate().filter_map(|(index, function)| {
+        let count = rows.iter().filter(|row| **row == index).count();
+        (count > 0).then(|| format!("{} of {}", counted(count, "row", "rows"), function.name))
+    });
+    named.collect::<Vec<_>>().join(", ")
 }
 
 /// The numbers that are off in one row.

@@ -35,6 +35,12 @@ impl Answers {
     /// given twice, on a count of numbers that is not the row's, on what is no number, and where there is no row.
     pub fn read(text: &str, golden: &Golden) -> Result<Self, AnswersError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if is_golden(text) {
+            let problem =
+                "is the file of inputs; give what your port prints for them: id,number,number,... for each row"
+                    .to_owned();
+            return Err(AnswersError { line: None, problem });
+        }
         let mut answers = Self::default();
         if text.trim_start().starts_with(['{', '[']) {
             for (id, numbers) in json(text)? {
@@ -61,7 +67,7 @@ impl Answers {
             let is_header = std::mem::take(&mut is_first) && id.trim_matches('"').eq_ignore_ascii_case("id");
             if !is_header {
                 let numbers = words.map(number).collect::<Result<_, _>>();
-                let added = numbers.and_then(|numbers| self.add(golden, id, numbers));
+                let added = check_fields(content).and(numbers).and_then(|numbers| self.add(golden, id, numbers));
                 added.map_err(|problem| AnswersError { line: Some(index + 1), problem })?;
             }
         }
@@ -69,7 +75,7 @@ impl Answers {
     }
 
     fn add(&mut self, golden: &Golden, id: &str, numbers: Vec<f64>) -> Result<(), String> {
-        let Some(row) = id.parse().ok().and_then(|id| golden.row(id)) else {
+        let Some(row) = whole(id).and_then(|id| golden.row(id)) else {
             return Err(format!(
                 "{:?} is no row's id; ids are those of golden.csv, say {}",
                 excerpt(id),
@@ -88,6 +94,27 @@ impl Answers {
         };
         Ok(())
     }
+}
+
+/// Whether it is golden.csv or golden.json itself: their columns and lists have these names.
+fn is_golden(text: &str) -> bool {
+    let is_header = |line: &str| line.starts_with("id,function,case,mistake,inputs");
+    text.lines().take(400).any(is_header) || (text.trim_start().starts_with('{') && text.contains("\"functions\""))
+}
+
+/// Nothing between two commas is a number that is missing.
+fn check_fields(line: &str) -> Result<(), String> {
+    let fields: Vec<&str> = line.trim_end().trim_end_matches([',', ';']).split([',', ';']).collect();
+    match fields.iter().position(|field| field.trim().is_empty()) {
+        Some(empty) => Err(format!("field {} is empty; give a number, or nan", empty + 1)),
+        None => Ok(()),
+    }
+}
+
+/// An id, as languages print whole numbers: 2400, 2400.0, 2.4e+03.
+fn whole(word: &str) -> Option<u32> {
+    let number: f64 = word.trim_matches('"').parse().ok()?;
+    (number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number)).then_some(number as u32)
 }
 
 /// A number in whatever way C, C# or JavaScript print those that are none.
@@ -129,8 +156,10 @@ fn json(text: &str) -> Result<Vec<(String, Vec<f64>)>, AnswersError> {
 struct Entries(Vec<(String, Vec<Option<f64>>)>);
 
 #[derive(Deserialize)]
+#[serde(expecting = "an object with id and outputs")]
 struct Listed {
-    id: u32,
+    /// A number, or a text that holds one.
+    id: serde_json::Value,
     outputs: Vec<Option<f64>>,
 }
 
@@ -183,6 +212,8 @@ mod tests {
             "\u{feff}id,outputs\r\n# a comment, 7\r\n1200,0.5 -2 1e-7\r\n\r\n  200 , 1.0\r\n",
             "\"id\";\"outputs\"\n200;1\n1200;0.5;-2.0;1E-07",
             " {\"200\": [1], \"1200\": [0.5, -2, 1e-7]}",
+            "2.000000000000000000e+02,1,\n1200.0,0.5,-2,1e-7,",
+            "[{\"id\": \"1200\", \"outputs\": [0.5, -2, 1e-7]}, {\"id\": 200.0, \"outputs\": [1]}]",
             "[{\"id\": 1200, \"outputs\": [0.5, -2, 1e-7], \"case\": \"x\"},\n {\"outputs\": [1], \"id\": 200}]",
         ] {
             assert_eq!(read(text), expected, "{text}");
@@ -205,6 +236,7 @@ mod tests {
 
     #[test]
     fn bad_input_is_told_in_one_line() {
+        let golden = "is the file of inputs; give what your port prints for them: id,number,number,... for each row";
         let none = "no row of numbers; give lines of id,number,number,... for the rows of golden.csv";
         for (text, message) in [
             ("", none),
@@ -217,6 +249,9 @@ mod tests {
             ("200,1.5f", "line 1: \"1.5f\" is no number; give the row's id and then its outputs"),
             ("1200,1,2", "line 1: row 1200 has 2 numbers where ltc_cross gives 3: product.x product.y product.z"),
             ("200", "line 1: row 200 has 0 numbers where ltc_side gives 1: side"),
+            ("200,,1", "line 1: field 2 is empty; give a number, or nan"),
+            ("id,function,case,mistake,inputs,outputs,tolerances\n", golden),
+            ("{\"about\": [], \"functions\": []}", golden),
             ("-200,1", "line 1: \"-200\" is no row's id; ids are those of golden.csv, say 100"),
         ] {
             assert_eq!(read(text), Err(message.to_owned()), "{text}");

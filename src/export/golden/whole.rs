@@ -30,7 +30,7 @@ flat!(
     }
 );
 
-flat!(Factors { mu: f64, a: f64, b: f64, r: f64, diffuse: f64, sheen: f64, specular: f64 });
+flat!(Factors { mu: f64, a: f64, b: f64, r: f64, diffuse: f64, specular: f64, sheen: f64 });
 
 /// A point this near to a light's plane, as a share of its distance, is in it.
 const IN_PLANE: f64 = 1e-9;
