@@ -275,6 +275,9 @@ fn a_scene_from_a_file_converges_too() {
     println!("{worst} errors apart at most");
 }
 
+/// What makes a scene one that is not drawn.
+type Change<'a> = &'a dyn Fn(&mut Scene);
+
 /// What it does not draw it refuses, with a word for it.
 #[test]
 fn nothing_is_drawn_wrong_in_silence() {
@@ -292,7 +295,7 @@ fn nothing_is_drawn_wrong_in_silence() {
         position: Vec3::ZERO,
         direction: Vec3::NEG_Y,
     };
-    let cases: [(&str, &dyn Fn(&mut Scene)); 6] = [
+    let cases: [(&str, Change<'_>); 6] = [
         ("opacity", &|scene| scene.materials[0].alpha_mode = AlphaMode::Blend),
         ("unlit", &|scene| scene.materials[1].unlit = true),
         ("layering", &|scene| scene.materials[1].sheen = Some(fuzz)),

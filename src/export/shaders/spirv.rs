@@ -20,7 +20,8 @@ pub fn spirv(wgsl: &str) -> Result<Vec<u8>, String> {
     let info = validator.validate(&module).map_err(|error| error.emit_to_string(wgsl))?;
     let options = spv::Options { flags: spv::WriterFlags::DEBUG, ..spv::Options::default() };
     let words = spv::write_vec(&module, &info, &options, None).map_err(|error| error.to_string())?;
-    Ok(with_exports(&words).into_iter().flat_map(u32::to_le_bytes).collect())
+    let functions: Vec<&str> = module.functions.iter().filter_map(|(_, function)| function.name.as_deref()).collect();
+    Ok(with_exports(&words, &functions).into_iter().flat_map(u32::to_le_bytes).collect())
 }
 
 /// The module's instructions, each with its number.
@@ -34,8 +35,15 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     })
 }
 
-/// Adds a decoration for each named function, behind the last of the names, where decorations begin.
-fn with_exports(words: &[u32]) -> Vec<u32> {
+/// The text of words, of which the last ends in zeros.
+fn text(words: &[u32]) -> String {
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take_while(|byte| *byte != 0).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Adds a decoration for each function of the file, behind the last of the names, where decorations begin. Those that the writer adds
+/// stay within the module: others have them too.
+fn with_exports(words: &[u32], exported: &[&str]) -> Vec<u32> {
     let functions: Vec<u32> =
         instructions(words).filter(|(number, _)| *number == OP_FUNCTION).map(|(_, function)| function[2]).collect();
     let mut written = words[..HEADER_WORDS].to_vec();
@@ -46,7 +54,8 @@ fn with_exports(words: &[u32]) -> Vec<u32> {
         if number == OP_NAME {
             names = length;
         }
-        if number == OP_NAME && functions.contains(&instruction[1]) {
+        let is_exported = |name: &[u32]| exported.contains(&text(name).as_str());
+        if number == OP_NAME && functions.contains(&instruction[1]) && is_exported(&instruction[2..]) {
             let name = &instruction[2..];
             exports.extend([(name.len() as u32 + 4) << 16 | OP_DECORATE, instruction[1], LINKAGE_ATTRIBUTES]);
             exports.extend(name);
@@ -72,8 +81,7 @@ mod tests {
                 bytes.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
             let mut names: Vec<String> = instructions(&words)
                 .filter(|(number, words)| *number == OP_DECORATE && words[2] == LINKAGE_ATTRIBUTES)
-                .map(|(_, words)| words[3..words.len() - 1].iter().flat_map(|word| word.to_le_bytes()).collect())
-                .map(|bytes: Vec<u8>| String::from_utf8(bytes).unwrap().trim_end_matches('\0').to_owned())
+                .map(|(_, words)| text(&words[3..words.len() - 1]))
                 .collect();
             let functions = source.text.lines().filter_map(|line| line.strip_prefix("fn "));
             let mut expected: Vec<String> = functions.map(|rest| rest.split('(').next().unwrap().to_owned()).collect();
