@@ -30,8 +30,8 @@ impl Form {
     pub const ALL: [Self; 10] =
         [Self::Dds, Self::Ktx2, Self::Csv, Self::Npy, Self::Exr, Self::Bin, Self::Js, Self::C, Self::Rust, Self::Glsl];
 
-    /// The extension of a file's name.
-    pub fn extension(self) -> &'static str {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Dds => "dds",
             Self::Ktx2 => "ktx2",
@@ -40,9 +40,18 @@ impl Form {
             Self::Exr => "exr",
             Self::Bin => "bin",
             Self::Js => "js",
+            Self::C => "c",
+            Self::Rust => "rust",
+            Self::Glsl => "glsl",
+        }
+    }
+
+    /// The extension of a file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
             Self::C => "h",
             Self::Rust => "rs",
-            Self::Glsl => "glsl",
+            _ => self.name(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use velour::export::tables::{Form, SIDES, Texture, resampled, resampled_stem};
 use velour::file::write_atomically;
@@ -17,8 +18,8 @@ pub struct Tables {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// The form; several times for several [default: all]
-    #[arg(long, value_enum)]
-    format: Vec<Format>,
+    #[arg(long, value_parser = form_parser())]
+    format: Vec<Form>,
     /// Which table: the sheen's (alpha along x, mu along y), or the specular base's (roughness along x, sqrt(1 - mu) along y) [default: both]
     #[arg(long, value_enum)]
     only: Option<Table>,
@@ -34,46 +35,11 @@ enum Table {
     Ggx,
 }
 
-/// A form, with what a file of it cannot say of itself.
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// RGBA16F, DX10 header of 148 bytes, little-endian, first row y = 0
-    Dds,
-    /// RGBA16F without supercompression, little-endian, first row y = 0
-    Ktx2,
-    /// Text: a line for each node, the x axis slowest
-    Csv,
-    /// NumPy: little-endian f4, shape (height, width, 4), so [y][x][channel]
-    Npy,
-    /// OpenEXR: halves in R, G, B, A, first row y = 0 at the top
-    Exr,
-    /// Nothing but halves: RGBA, little-endian, first row y = 0
-    Bin,
-    /// An ES module with a Uint16Array of halves: RGBA, first row y = 0
-    Js,
-    /// A header with floats by [y][x][channel]
-    C,
-    /// A static array of f32 by [y][x][channel]
-    Rust,
-    /// A constant array of packed halves for GLSL ES 3.00, GLSL 4.20 and later
-    Glsl,
-}
-
-impl Format {
-    fn form(self) -> Form {
-        match self {
-            Self::Dds => Form::Dds,
-            Self::Ktx2 => Form::Ktx2,
-            Self::Csv => Form::Csv,
-            Self::Npy => Form::Npy,
-            Self::Exr => Form::Exr,
-            Self::Bin => Form::Bin,
-            Self::Js => Form::Js,
-            Self::C => Form::C,
-            Self::Rust => Form::Rust,
-            Self::Glsl => Form::Glsl,
-        }
-    }
+/// A form by its name, with what a file of it may not say of itself.
+fn form_parser() -> impl TypedValueParser<Value = Form> {
+    let values = Form::ALL.map(|form| PossibleValue::new(form.name()).help(form.encoding()));
+    let named = |name: String| Form::ALL.into_iter().find(|form| form.name() == name);
+    PossibleValuesParser::new(values).map(move |name| named(name).expect("it is one of these names"))
 }
 
 pub fn run(arguments: &Tables) -> Result<(), Failure> {
@@ -107,9 +73,9 @@ pub fn run(arguments: &Tables) -> Result<(), Failure> {
 }
 
 /// The forms that are asked for, each once.
-fn forms(asked: &[Format]) -> Vec<Form> {
+fn forms(asked: &[Form]) -> Vec<Form> {
     if asked.is_empty() {
         return Form::ALL.to_vec();
     }
-    Form::ALL.into_iter().filter(|form| asked.iter().any(|format| format.form() == *form)).collect()
+    Form::ALL.into_iter().filter(|form| asked.contains(form)).collect()
 }
